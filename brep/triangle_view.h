@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TriangleView: a mesh of triangles in somebody else's memory.
+// TriangleView: a mesh of triangles in memory of a caller.
 #pragma once
 
 #include <array>

@@ -82,7 +82,7 @@ public:
     /// \throw InvalidSolid when the mesh is not closed and oriented; Error InvalidSolid when it is
     /// inside out, unless the options accept that.
     [[nodiscard]] static Solid from_mesh(const PolygonMesh& mesh, const SolidOptions& options = {});
-    /// The same of triangles in somebody else's memory: for most meshes nothing is copied before it
+    /// The same of triangles in memory of the caller: for most meshes nothing is copied before it
     /// is rounded and connected. \throw as above, LimitError for more than 2^32 - 1 corners
     [[nodiscard]] static Solid from_triangles(const TriangleView& mesh,
                                               const SolidOptions& options = {});

@@ -21,7 +21,7 @@ namespace trisect::detail {
                                                            const ImportOptions& options,
                                                            Fractions fractions = Fractions::Kept,
                                                            std::size_t least_part = 16384);
-/// The same for triangles in somebody else's memory.
+/// The same for triangles in memory of a caller.
 [[nodiscard]] std::optional<ImportedMesh> import_triangles(const TriangleView& mesh,
                                                            const ImportOptions& options,
                                                            Fractions fractions = Fractions::Kept,

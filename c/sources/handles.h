@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the opaque handles of the C interface hold.
+// Contents of the opaque handles of the C interface.
 #pragma once
 
 #include <atomic>

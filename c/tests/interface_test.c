@@ -12,13 +12,13 @@
 
 static int failures = 0;
 
-#define EXPECT(condition)                                                          \
-    do {                                                                           \
-        if (!(condition)) {                                                        \
+#define EXPECT(condition)                                                             \
+    do {                                                                              \
+        if (!(condition)) {                                                           \
             printf("%s:%d: %s\n    last error: %s\n", __FILE__, __LINE__, #condition, \
-                   trisect_error_message());                                       \
-            ++failures;                                                            \
-        }                                                                          \
+                   trisect_error_message());                                          \
+            ++failures;                                                               \
+        }                                                                             \
     } while (0)
 #define EXPECT_OK(call) EXPECT((call) == TRISECT_OK)
 
@@ -50,8 +50,8 @@ static void test_version(void) {
 
 static void test_solids_of_arrays(void) {
     trisect_solid* solid = NULL;
-    EXPECT_OK(trisect_solid_from_triangles(tetrahedron_points, 4, tetrahedron_faces, 4, NULL,
-                                           &solid));
+    EXPECT_OK(
+        trisect_solid_from_triangles(tetrahedron_points, 4, tetrahedron_faces, 4, NULL, &solid));
     trisect_text* text = NULL;
     EXPECT_OK(trisect_exact_volume(solid, &text));
     size_t length = 0;
@@ -81,8 +81,8 @@ static void test_refused_arrays(void) {
     EXPECT(strcmp(trisect_error_message(), "vertices is NULL") == 0);
     EXPECT(trisect_solid_from_triangles(tetrahedron_points, 4, tetrahedron_faces, 4, NULL, NULL) ==
            TRISECT_USAGE);
-    EXPECT(trisect_solid_from_triangles(tetrahedron_points, 4, tetrahedron_faces,
-                                        (size_t)1 << 32, NULL, &solid) == TRISECT_LIMIT);
+    EXPECT(trisect_solid_from_triangles(tetrahedron_points, 4, tetrahedron_faces, (size_t)1 << 32,
+                                        NULL, &solid) == TRISECT_LIMIT);
     trisect_solid_options options = {0};
     EXPECT(trisect_solid_from_triangles(tetrahedron_points, 4, tetrahedron_faces, 4, &options,
                                         &solid) == TRISECT_USAGE);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What several parts of the module do with solids.
+// Functions for solids that several parts of the module use.
 #pragma once
 
 #include <cstdint>

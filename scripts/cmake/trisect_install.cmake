@@ -15,6 +15,32 @@ install(
     EXPORT trisect_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
 )
+# From a file of pkg-config to the prefix, so that an installed tree can be moved.
+file(
+    RELATIVE_PATH TRISECT_PC_TO_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix
+)
+# The C interface. Programs in C need this library and its header, and nothing else of ours.
+if(TARGET trisect_c)
+    install(
+        TARGETS trisect_c
+        EXPORT trisect_targets
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    )
+    install(
+        FILES ${PROJECT_SOURCE_DIR}/c/trisect-c/trisect.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect-c
+    )
+    configure_file(
+        ${PROJECT_SOURCE_DIR}/scripts/cmake/trisect-c.pc.in ${PROJECT_BINARY_DIR}/trisect-c.pc @ONLY
+    )
+    install(
+        FILES ${PROJECT_BINARY_DIR}/trisect-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    )
+endif()
+configure_file(
+    ${PROJECT_SOURCE_DIR}/scripts/cmake/trisect.pc.in ${PROJECT_BINARY_DIR}/trisect.pc @ONLY
+)
+install(FILES ${PROJECT_BINARY_DIR}/trisect.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(TARGET trisect_cli)
     install(TARGETS trisect_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ("kernel", "brep", "bsp", "apps")
+LAYERS = ("kernel", "brep", "bsp", "apps", "c/sources", "python")
 MOST_WORDS = 12
 
 # What data do not do, words of docs/glossary.md that stand for something else there, and questions.
