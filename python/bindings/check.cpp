@@ -75,6 +75,9 @@ Counts are of all findings; of each kind at most a hundred are listed.
         .def_property_readonly("findings", &ValidationReport::defects, "List of `Finding`.")
         .def_property_readonly("is_solid", &ValidationReport::is_solid,
                                "Whether there is no finding of severity ERROR.")
+        .def_property_readonly(
+            "rounding", [](const ValidationReport& r) { return r.lattice(); },
+            "The `Rounding` of coordinates that span too many bits; findings are of what is left.")
         .def("count", &count_of, py::arg("kind"),
              "How many findings of a `DefectKind` or a `Severity` there are.")
         .def(

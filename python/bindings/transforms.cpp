@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <trisect/brep/transform.h>
@@ -45,7 +46,7 @@ Solid moved(const Solid& s, const AffineMap& map) {
 }
 
 void bind_rounding(py::module_& m) {
-    py::class_<LatticeReport>(m, "Rounding", "What a transform rounded.")
+    py::class_<LatticeReport>(m, "Rounding", "What a transform or an import rounded.")
         .def_readonly("lossless", &LatticeReport::lossless, "Whether nothing moved.")
         .def_readonly("moved", &LatticeReport::moved, "Vertices with a rounded coordinate.")
         .def_readonly("max_move", &LatticeReport::max_move, "The largest change of a coordinate.")
@@ -86,11 +87,12 @@ degrees : float
     c.def(
         "scale",
         [](const Solid& s, const py::object& factor) {
-            const bool is_number =
-                py::isinstance<py::float_>(factor) || py::isinstance<py::int_>(factor);
+            const bool is_list =
+                py::isinstance<py::array>(factor) || PySequence_Check(factor.ptr());
+            const bool is_number = !is_list && PyNumber_Check(factor.ptr()) != 0;
             Point3d factors{};
             if (is_number) {
-                factors.fill(factor.cast<double>());
+                factors.fill(py::float_(factor).cast<double>());
             } else {
                 factors = point_of(factor, "factor");
             }

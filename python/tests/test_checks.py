@@ -12,6 +12,14 @@ def test_a_good_mesh(cube):
     assert report.is_solid and not report and report.findings == []
     assert trisect.check(cube.mesh()).is_solid
     assert str(report).strip() == "no defects"
+    assert report.rounding.lossless
+
+
+def test_rounding_of_coordinates_that_span_too_many_bits(cube):
+    v, f = cube.mesh()
+    v[v[:, 0] == 0, 0] = 1e-300
+    rounding = trisect.check(v, f).rounding
+    assert not rounding.lossless and rounding.moved == 4 and 0 < rounding.max_move <= 1e-300
 
 
 def test_findings_have_kinds_and_places(cube):

@@ -95,6 +95,7 @@ def test_exact_transforms(cube):
     assert cube.rotate((0, 0, 1), -270).equals(turned)
     assert cube.mirror("x").equals(cube.translate((-1, 0, 0)))
     assert cube.scale(3).volume == 27
+    assert cube.scale(np.float32(2)).volume == cube.scale(np.int64(2)).volume == 8
     assert cube.scale((1, 2, 3)).volume == 6
 
 
