@@ -81,7 +81,7 @@ TEST(ImportMesh, TriangleMeshNeedsNoFaceTable) {
 }
 
 TEST(ImportMesh, EmptyMeshIsClosed) {
-    const auto r = import_mesh({});
+    const auto r = import_mesh(PolygonMesh{});
     EXPECT_TRUE(r.report.closed);
     EXPECT_FALSE(r.report.inside_out);
     EXPECT_TRUE(r.mesh.triangles.empty());
