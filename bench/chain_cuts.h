@@ -18,7 +18,10 @@ public:
     /// lying all over the stock. `small_holder`: the holder is as large as a ball, so that it is
     /// near to as many facets whatever their number; else it has a quarter of the stock's radius.
     ChainCuts(int level, bool path, bool small_holder = false)
-        : path_(path), small_holder_(small_holder), radius_(std::sqrt(300.0 / (5 * std::pow(4, level)))), level_(level) {}
+        : path_(path),
+          small_holder_(small_holder),
+          radius_(std::sqrt(300.0 / (5 * std::pow(4, level)))),
+          level_(level) {}
 
     [[nodiscard]] trisect::PolygonMesh stock() const { return on_grid(shapes::icosphere(level_)); }
     /// About the origin, beside the stock once it is moved.

@@ -10,7 +10,8 @@
 //
 // Import takes plain arrays, export gives plain arrays, reading of files is not timed. In a chain
 // the tools' import is import, and all steps together are the evaluation. --limit ends a chain
-// after so much time: `steps` then says how far it came; and after so much time no run begins. --profile also times making the B-rep.
+// after so much time: `steps` then says how far it came; and after so much time no run begins.
+// --profile also times making the B-rep.
 // --write leaves the result's triangles as OFF.
 //
 // With --serve the program waits for a line on its standard input before every run and prints one

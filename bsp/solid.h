@@ -108,7 +108,7 @@ public:
     [[nodiscard]] Lattice lattice() const;
     /// Of a solid made from a mesh: what FaceSource::operand of its faces will be in every result.
     [[nodiscard]] std::uint32_t source_id() const;
-    /// True for the empty set. O(1) for results of evaluate().
+    /// True for the empty set. Looks for one polygon of the boundary: O(1), but where none is.
     [[nodiscard]] bool is_empty() const;
     /// True for whole space.
     [[nodiscard]] bool is_whole_space() const;

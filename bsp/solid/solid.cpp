@@ -49,6 +49,39 @@ bool is_constant(const SolidState& s, bool inside) {
     return n.is_leaf() && n.size() == 0 && ((n.winding() > 0) != tree->root.complemented) == inside;
 }
 
+// Whether a polygon is found that is listed in a cell and lies in it, which bounds the set; leaves
+// that were put off are arranged until there is one. Otherwise `lists` says whether any is listed.
+bool finds_boundary(const CellNode& node, const detail::Cell& cell, bool& lists) {
+    if (node.size() == 0) return false;
+    if (!node.is_leaf())
+        return finds_boundary(*node.child(0).node, cell.below(node.axis(), node.splitter()),
+                              lists) ||
+               finds_boundary(*node.child(1).node, cell.above(node.axis(), node.splitter()), lists);
+    const PolygonList& polygons = node.polygons();
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        lists = true;
+        if (cell.contains(polygons[i].box())) return true;
+    }
+    return false;
+}
+
+// Of a set that no leaf of a single cell shows to be constant. Lists may have what misses their
+// cell, and leaves that were put off may turn out empty.
+bool has_boundary(const Solid& solid) {
+    const SolidState& s = *detail::state_of(solid);
+    bool lists = true;
+    if (const auto* const tree = std::get_if<detail::CellTree>(&s.form)) {
+        lists = false;
+        if (finds_boundary(*tree->root.node, detail::Cell{}, lists)) return true;
+    } else if (const auto* const meshes = std::get_if<detail::UndividedMeshes>(&s.form)) {
+        if (std::ranges::any_of(meshes->uncrossed, [](const auto& u) { return !u.facets.empty(); }))
+            return true;
+    } else if (std::get<detail::PrismOutlines>(s.form).whole->size() != 0) {
+        return true;
+    }
+    return lists && (s.far_out < 0 || !solid.to_exact_mesh(1).triangles.empty());
+}
+
 // Only sets made of half-spaces alone do not store it; the boundary decides. What it leaves to
 // whole space and the empty set their trees decide.
 bool is_unbounded(const Solid& solid) {
@@ -183,8 +216,16 @@ void Solid::refine(std::uint32_t threads) const {
 }
 
 Lattice Solid::lattice() const { return state()->lattice; }
-bool Solid::is_empty() const { return is_constant(*state(), false); }
-bool Solid::is_whole_space() const { return is_constant(*state(), true); }
+bool Solid::is_empty() const {
+    const SolidState& s = *state();
+    return is_constant(s, false) ||
+           (s.far_out <= 0 && !is_constant(s, true) && !has_boundary(*this));
+}
+bool Solid::is_whole_space() const {
+    const SolidState& s = *state();
+    return is_constant(s, true) ||
+           (s.far_out > 0 && !is_constant(s, false) && !has_boundary(*this));
+}
 std::uint32_t Solid::source_id() const { return static_cast<std::uint32_t>(state()->source); }
 
 Brep Solid::to_brep(const AssembleOptions& options) const {

@@ -20,10 +20,12 @@
 #include <trisect/kernel/error.h>
 
 #include "engines/evaluate_stats.h"
+#include "support/solids.h"
 
 namespace {
 
 using trisect::evaluate;
+using trisect::Expression;
 using trisect::Solid;
 
 Solid unit_box() { return Solid::from_mesh(trisect::make_box({1, 1, 1})); }
@@ -172,6 +174,32 @@ TEST(SolidValue, HalfSpacesWithoutNormalAreRefused) {
 TEST(SolidValue, EmptyMeshesAreTheEmptySet) {
     EXPECT_TRUE(Solid::from_mesh(trisect::PolygonMesh()).is_empty());
     EXPECT_TRUE(Solid::from_lattice_mesh(trisect::LatticeMesh()).is_empty());
+}
+
+// Leaves that are put off turn out empty here.
+TEST(SolidValue, WhatStepsAndAFormulaDoNotShareIsEmpty) {
+    Expression formula = solids::ball(1, 3);
+    Solid chain = solids::ball(1, 3);
+    for (int i = 1; i < 5; ++i) {
+        const Solid tool = solids::ball(1 + 0.01 * i, 3, {0.02 * i, 0.03 - 0.01 * i, 0.011 * i});
+        formula = formula - Expression(tool);
+        chain = evaluate(Expression(chain) - Expression(tool));
+    }
+    const Solid direct = evaluate(formula);
+    const Solid nothing = evaluate(Expression(direct) ^ Expression(chain));
+    EXPECT_TRUE(nothing.is_empty());
+    EXPECT_FALSE(nothing.is_whole_space());
+    EXPECT_TRUE(evaluate(~Expression(nothing)).is_whole_space());
+    EXPECT_FALSE(direct.is_empty());
+    EXPECT_FALSE(evaluate(~Expression(direct)).is_whole_space());
+}
+
+// Two meshes without a tree.
+TEST(SolidValue, AMeshLessItselfIsEmpty) {
+    const Solid ball = solids::ball(1, 5);
+    const Solid other = Solid::from_mesh(ball.to_mesh());
+    EXPECT_TRUE(evaluate(Expression(ball) - Expression(other)).is_empty());
+    EXPECT_FALSE(evaluate(Expression(ball) & Expression(other)).is_empty());
 }
 
 TEST(SolidValue, FacesOfAPolygonMeshStayWhole) {
