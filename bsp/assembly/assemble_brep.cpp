@@ -135,6 +135,8 @@ Brep assemble_brep(const SolidState& solid, const AssembleOptions& options, Asse
     gather_parts(solid, parts, false);
     std::vector<BoundaryEdge> edges = std::move(parts.edges);
     join_facets(parts, edges);
+    // Neighbours in one plane stay apart, so the points between them on other facets are vertices.
+    if (within_faces) conform_unmatched_edges(parts, edges);
     remove_straight_vertices(parts, true, {}, edges);
     BoundaryVertices vertices(parts);
     std::vector<WholeFacet> whole = list_whole_facets(parts, edges, within_faces, vertices);

@@ -170,6 +170,32 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     put_back_crossings(parts, all_cancelled, edges);
 }
 
+void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+    const auto key = [](PointId from, PointId to) {
+        return Key128{static_cast<std::uint64_t>(from), static_cast<std::uint64_t>(to)};
+    };
+    FlatMap known;
+    for (const BoundaryEdge& e : edges) known.insert(key(e.from, e.to), 0);
+    const auto is_unmatched = [&](const BoundaryEdge& e) {
+        return known.find(key(e.to, e.from)) < 0;
+    };
+    std::vector<BoundaryEdge> unmatched;
+    std::copy_if(edges.begin(), edges.end(), std::back_inserter(unmatched), is_unmatched);
+    if (unmatched.empty()) return;
+    EdgeSplitter splitter(parts.bench, parts.facets);
+    for (const BoundaryEdge& e : unmatched) {
+        splitter.add_candidate(e.from);
+        splitter.add_candidate(e.to);
+    }
+    std::vector<BoundaryEdge> split;
+    splitter.split(unmatched, split);
+    if (split.size() == unmatched.size()) return;
+    std::erase_if(edges, is_unmatched);
+    edges.insert(edges.end(), split.begin(), split.end());
+    sort_by_facet(parts, edges);
+    arrange_loops(edges);
+}
+
 void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
     for (std::size_t i = 0; i < edges.size();) {
         BoundaryFacet& f = parts.facets[as_index(edges[i].facet)];

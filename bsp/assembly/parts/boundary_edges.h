@@ -23,6 +23,11 @@ void arrange_loops(std::span<BoundaryEdge> edges);
 /// of space (an unbounded face).
 void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
 
+/// Inserts vertices that lie inside edges into those that no other edge runs against: where two
+/// facets in one plane cross another one, that one has an edge along both. \pre sorted by facet; so
+/// they come out.
+void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+
 /// Marks the facets whose edges are those of their source's facet: touched in vain. Whether such a
 /// facet has edges at all depends on the tree. \pre edges sorted by facet, straight vertices
 /// removed.

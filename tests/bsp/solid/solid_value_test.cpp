@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <memory>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 
@@ -192,6 +195,36 @@ TEST(SolidValue, WhatStepsAndAFormulaDoNotShareIsEmpty) {
     EXPECT_TRUE(evaluate(~Expression(nothing)).is_whole_space());
     EXPECT_FALSE(direct.is_empty());
     EXPECT_FALSE(evaluate(~Expression(direct)).is_whole_space());
+}
+
+// A wall is two triangles in one plane, each a face of its own, between which the plate has a
+// vertex.
+TEST(SolidValue, FacesOfBoresInTrianglesHaveAllVertices) {
+    constexpr std::uint32_t sides = 8;
+    trisect::PolygonMesh bores;
+    for (int i = 0; i < 64; ++i) {
+        trisect::PolygonMesh bore;
+        for (const double z : {-0.5, 1.5})
+            for (std::uint32_t k = 0; k < sides; ++k) {
+                const double angle = 2 * std::numbers::pi * k / sides;
+                bore.points.push_back({i % 8 + 0.5 + 0.35 * std::cos(angle),
+                                       i / 8 + 0.5 + 0.35 * std::sin(angle), z});
+            }
+        for (std::uint32_t k = 0; k < sides; ++k) {
+            const std::uint32_t l = (k + 1) % sides;
+            bore.add_triangle(k, l, l + sides);
+            bore.add_triangle(k, l + sides, k + sides);
+            if (k < 2) continue;
+            bore.add_triangle(0, k, k - 1);
+            bore.add_triangle(sides, sides + k - 1, sides + k);
+        }
+        trisect::append(bores, bore);
+    }
+    const Solid plate = Solid::from_mesh(trisect::make_box({8, 8, 1}));
+    const Solid bored = evaluate(Expression(plate) - Expression(Solid::from_mesh(bores)));
+    const trisect::Brep brep = bored.to_brep({.maximal_faces = false});
+    EXPECT_EQ(brep.counts().faces, 6U + 64 * 2 * sides);
+    EXPECT_EQ(exact_volume(brep), exact_volume(bored.to_brep()));
 }
 
 // Two meshes without a tree.
