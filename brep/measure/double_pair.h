@@ -69,17 +69,17 @@ DoublePair to_pair(const WideInt<N>& v) {
 
 /// A number as value · 2^(64 · shift); the three limbs that are taken have its first 129 bits at
 /// least, so it is off by less than 2^-100 in relation.
-struct ShiftedPair {
+struct ScaledPair {
     DoublePair value;
     int shift = 0;
 };
 template <int N>
-ShiftedPair to_shifted_pair(const WideInt<N>& v) {
+ScaledPair to_scaled_pair(const WideInt<N>& v) {
     const WideInt<N> magnitude = v.abs();
     int top = N - 1;
     while (top > 0 && magnitude.limb(top) == 0) --top;
     const int last = top < 2 ? 0 : top - 2;
-    ShiftedPair out;
+    ScaledPair out;
     out.shift = last;
     for (int i = top; i >= last; --i) {
         for (const std::uint64_t part :

@@ -99,9 +99,9 @@ private:
             for (std::size_t k = 0; k < 3; ++k) out[k].high = c[k];
         } else {
             const HomogeneousPoint& h = point.plane_point()->exact;
-            const ShiftedPair w = to_shifted_pair(h.w);
+            const ScaledPair w = to_scaled_pair(h.w);
             for (std::size_t k = 0; k < 3; ++k) {
-                const ShiftedPair x = to_shifted_pair(h.xyz[k]);
+                const ScaledPair x = to_scaled_pair(h.xyz[k]);
                 const double factor = std::ldexp(1, 64 * (x.shift - w.shift));
                 const DoublePair quotient = divide(x.value, w.value);
                 out[k] = {quotient.high * factor, quotient.low * factor};
