@@ -22,7 +22,7 @@ struct BoundaryFacet {
     bool in_several_cells = false;  ///< its parts were not all conformed in one leaf
     std::uint32_t parts = 0;        ///< how many; the edges of one come in the order of its loop
     bool unchanged = false;         ///< see mark_unchanged_facets
-    bool is_special = false;  ///< traced, and vertices may coincide or lie inside edges
+    bool is_special = false;        ///< traced, and vertices may coincide or lie inside edges
 };
 
 /// An edge of a part of a facet, directed so that the part lies to its left seen from outside.
