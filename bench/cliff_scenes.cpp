@@ -18,6 +18,7 @@
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/kernel/error.h>
 
 #include "shapes.h"
@@ -81,7 +82,6 @@ PolygonMesh rounded(PolygonMesh mesh) {
     return mesh;
 }
 
-// A grid of quads around both angles or along the height; closed by fans where rows end in poles.
 PolygonMesh spikes(int level) {
     PolygonMesh m = shapes::icosphere(level);
     for (std::size_t i = 0; i < m.points.size(); ++i)
@@ -158,22 +158,19 @@ PolygonMesh shape_of(const std::string& name, int triangles,
     if (name == "spikes") return spikes(level_of(triangles));
     if (name == "globe") {
         const auto n = static_cast<std::uint32_t>(std::max(4.0, std::sqrt(triangles)));
-        return in_triangles(trisect::make_uv_sphere(1, n, n / 2));
+        return trisect::make_uv_sphere(1, n, n / 2);
     }
     if (name == "torus") {
         const auto n = static_cast<std::uint32_t>(std::max(3.0, std::sqrt(triangles / 4.0)));
-        return in_triangles(trisect::make_torus(0.7, 0.3, 2 * n, n));
+        return trisect::make_torus(0.7, 0.3, 2 * n, n);
     }
-    if (name == "cylinder") return in_triangles(trisect::make_cylinder(1, 2, count));
-    if (name == "needle")
-        return scaled(in_triangles(trisect::make_cylinder(1, 2, count)), {0.02, 0.02, 1});
-    if (name == "cone") return in_triangles(trisect::make_cone(1, 0, 2, 2 * count));
-    if (name == "prism") return in_triangles(trisect::make_regular_prism(count, 1, 2));
+    if (name == "cylinder") return trisect::make_cylinder(1, 2, count);
+    if (name == "needle") return scaled(trisect::make_cylinder(1, 2, count), {0.02, 0.02, 1});
+    if (name == "cone") return trisect::make_cone(1, 0, 2, 2 * count);
+    if (name == "prism") return trisect::make_regular_prism(count, 1, 2);
     if (name == "star")
-        return in_triangles(
-            trisect::make_prism(star_outline(2 * static_cast<int>(count / 2) + 2), 2));
-    if (name == "comb")
-        return in_triangles(trisect::make_prism(comb_outline(static_cast<int>(count)), 2));
+        return trisect::make_prism(star_outline(2 * static_cast<int>(count / 2) + 2), 2);
+    if (name == "comb") return trisect::make_prism(comb_outline(static_cast<int>(count)), 2);
     if (name == "block") return shapes::block({-1, -1, -1}, {1, 1, 1}, square);
     if (name == "rough") return rough(square);
     if (name == "disc") return scaled(shapes::icosphere(level_of(triangles)), {1, 1, 0.01});
@@ -184,7 +181,14 @@ PolygonMesh shape_of(const std::string& name, int triangles,
     unknown_cliff(words);
 }
 
-constexpr Matrix no_turn{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+// Rounded before it is cut into triangles: afterwards thin ones could turn over.
+PolygonMesh operand_of(const std::string& name, int triangles,
+                       const std::vector<std::string>& words) {
+    PolygonMesh mesh = in_triangles(rounded(shape_of(name, triangles, words)));
+    if (!trisect::is_embedded(trisect::import_mesh(mesh).mesh))
+        throw trisect::UsageError("it meets itself: " + name);
+    return mesh;
+}
 
 // Exact: axes go to axes.
 PolygonMesh quarter_turned(PolygonMesh mesh, int quarters) {
@@ -242,7 +246,7 @@ PolygonMesh placed(const PolygonMesh& mesh, const std::string& placement,
 
 Scene pair_scene(const std::vector<std::string>& words) {
     Scene s;
-    const PolygonMesh a = rounded(shape_of(words[1], std::atoi(words[2].c_str()), words));
+    const PolygonMesh a = operand_of(words[1], std::atoi(words[2].c_str()), words);
     s.operands = {a, placed(a, words[3], words)};
     s.operations = {Operation::Union, Operation::Intersection, Operation::Difference};
     return s;
@@ -287,7 +291,7 @@ PolygonMesh member(const std::string& group, const PolygonMesh& shape, int i, in
 Scene group_scene(const std::vector<std::string>& words) {
     const int n = std::atoi(words[3].c_str());
     if (n < 1) unknown_cliff(words);
-    const PolygonMesh shape = rounded(shape_of(words[2], std::atoi(words[4].c_str()), words));
+    const PolygonMesh shape = operand_of(words[2], std::atoi(words[4].c_str()), words);
     Scene s;
     shapes::Random random(7);
     if (words[1] == "tools") {
