@@ -11,7 +11,9 @@
 //    are not needed, so what does not meet the box of the other mesh's facets is left out.
 // 3. Sides of facets follow from the crossings (facet_sides.cpp).
 //
-// Any doubt ends the attempt: then the whole is evaluated as all else.
+// Pairs that doubles leave open are decided by integers, as if one mesh were moved by less than any
+// number (pair_search.cpp). What is then still not known ends the attempt: the whole is evaluated as
+// all else.
 
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 

@@ -22,9 +22,9 @@ namespace trisect::detail {
                                         const EvaluateSettings& options,
                                         std::size_t least_facets = 1024);
 
-/// The value of such a formula, with that tree. Nothing where meshes do not cross in general
-/// position, or sides of facets are not known from that. What it returns does not depend on the
-/// number of threads. \pre are_two_large_meshes()
+/// The value of such a formula, with that tree. Nothing where a pair of facets is not decided, or
+/// sides of facets are not known from the pairs. What it returns does not depend on the number of
+/// threads. \pre are_two_large_meshes()
 [[nodiscard]] std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
                                                              const SolidStates& solids,
                                                              const EvaluateSettings& options,
