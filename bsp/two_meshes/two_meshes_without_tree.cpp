@@ -12,8 +12,8 @@
 // 3. Sides of facets follow from the crossings (facet_sides.cpp).
 //
 // Pairs that doubles leave open are decided by integers, as if one mesh were moved by less than any
-// number (pair_search.cpp). What is then still not known ends the attempt: the whole is evaluated as
-// all else.
+// number (pair_search.cpp). What is then still not known ends the attempt: the whole is evaluated
+// as all else.
 
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 

@@ -23,10 +23,33 @@ def balls():
 
 @pytest.fixture(scope="module")
 def many():
-    """Balls whose union takes some tenths of a second."""
+    """Balls whose union takes some tenths of a second on any machine, trees made."""
     ball = Solid.sphere(1, 4)
-    return [ball.rotate((1, 2, i), 17 * i + 5).translate((0.2 * (i % 5), 0.3 * (i % 3), 0.1 * i))
-            for i in range(16)]
+    balls = []
+    while True:
+        more = range(len(balls), 2 * len(balls) + 16)
+        balls += [ball.rotate((1, 2, i), 17 * i + 5)
+                  .translate((0.2 * (i % 5), 0.3 * (i % 3), 0.05 * i)) for i in more]
+        trisect.union(balls)
+        begin = time.monotonic()
+        trisect.union(balls)
+        if time.monotonic() - begin > 0.3:
+            return balls
+
+
+@pytest.fixture(autouse=True)
+def interruptible():
+    """Ctrl-C as in a terminal: a job that a script starts in the background ignores it."""
+    old = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, old)
+
+
+def for_some_seconds():
+    """Steps of a loop that something is to end long before this does."""
+    begin = time.monotonic()
+    while time.monotonic() - begin < 30:
+        yield
 
 
 def test_calls_release_the_lock(many):
@@ -55,27 +78,21 @@ def test_ctrl_c_stops_inside_one_boolean(many, balls):
     threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
-        for _ in range(1000):
+        for _ in for_some_seconds():
             trisect.union(many)
     assert time.monotonic() - begin < 5
     # And all goes on afterwards.
     assert (balls[0] & balls[0]).equals(balls[0])
 
 
-def test_ctrl_c_does_not_wait_for_the_end_of_a_call():
-    ball = Solid.sphere(1, 4)
-    balls = [ball.rotate((1, 2, i), 17 * i + 5).translate((0.2 * (i % 5), 0.3 * (i % 3), 0.02 * i))
-             for i in range(80)]
-    trisect.union(balls)
-    begin = time.monotonic()
-    trisect.union(balls)
-    whole = time.monotonic() - begin
-    threading.Timer(whole / 4, os.kill, (os.getpid(), signal.SIGINT)).start()
-    begin = time.monotonic()
+def test_ctrl_c_does_not_wait_for_the_end_of_a_call(many):
+    threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT)).start()
+    is_done = False
     with pytest.raises(KeyboardInterrupt):
-        trisect.union(balls)
-        time.sleep(10)  # where the call was done before the signal came
-    assert time.monotonic() - begin < 0.9 * whole
+        trisect.union(many)
+        is_done = True
+        time.sleep(10)  # for the signal
+    assert not is_done
 
 
 def test_other_handlers_run_while_a_call_works(many):
@@ -83,9 +100,10 @@ def test_other_handlers_run_while_a_call_works(many):
     old = signal.signal(signal.SIGALRM, lambda *_: calls.append(time.monotonic()))
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.1)
-        begin = time.monotonic()
-        while not calls and time.monotonic() - begin < 30:
+        for _ in for_some_seconds():
             result = trisect.union(many)
+            if calls:
+                break
         # The handler raised nothing, so the call went on to its result.
         assert len(calls) == 1 and not result.is_empty
     finally:
@@ -104,7 +122,7 @@ def test_a_handler_that_raises_ends_the_call(many):
     try:
         with pytest.raises(OutOfTime):
             signal.setitimer(signal.ITIMER_REAL, 0.1)
-            for _ in range(1000):
+            for _ in for_some_seconds():
                 trisect.union(many)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
@@ -118,13 +136,16 @@ def test_progress_is_reported_and_stops(many):
         seen.append((seconds, steps))
 
     with trisect.limits(progress=note):
-        while len(seen) < 2:
+        for _ in for_some_seconds():
             trisect.union(many)
+            if len(seen) >= 2:
+                break
+    assert len(seen) >= 2
     assert all(s > 0 and n > 0 for s, n in seen)
 
     with trisect.limits(progress=lambda seconds, steps: False):
         with pytest.raises(trisect.CancelledError):
-            for _ in range(1000):
+            for _ in for_some_seconds():
                 trisect.union(many)
 
     def fail(seconds, steps):
@@ -132,7 +153,7 @@ def test_progress_is_reported_and_stops(many):
 
     with trisect.limits(progress=fail):
         with pytest.raises(ZeroDivisionError, match="from progress"):
-            for _ in range(1000):
+            for _ in for_some_seconds():
                 trisect.union(many)
     with pytest.raises(TypeError, match="progress must be callable"):
         trisect.limits(progress=3)
@@ -145,8 +166,10 @@ def test_progress_may_call_the_library(many, cube):
         volumes.append((cube | cube.translate((2, 0, 0))).volume)
 
     with trisect.limits(progress=nested):
-        while not volumes:
+        for _ in for_some_seconds():
             trisect.union(many)
+            if volumes:
+                break
     assert set(volumes) == {2.0}
 
 
