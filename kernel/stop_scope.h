@@ -31,7 +31,9 @@ class StopScope;
 
 namespace detail {
 inline constinit thread_local StopScope* stop_scope_of_thread = nullptr;
-}
+// How many locks of solids this thread holds (support/work_lock.h).
+inline constinit thread_local int locks_of_thread = 0;
+}  // namespace detail
 
 /// Asked now and then whether to go on, by the thread that began the scope, from within what takes
 /// long. For programs whose events only that thread may look at: interpreters, user interfaces.
@@ -41,7 +43,9 @@ public:
     /// False stops as a flag does. Asked at every eighth look of the thread, which may be some
     /// hundred nanoseconds or some milliseconds later. Work on other threads goes on meanwhile: set
     /// a flag as well to stop that soon.
-    [[nodiscard]] virtual bool goes_on() noexcept = 0;
+    /// \param holds_locks  whether the thread is within something that other calls may wait for:
+    /// what is done here must then not call the library, nor wait for another thread that does
+    [[nodiscard]] virtual bool goes_on(bool holds_locks) noexcept = 0;
 };
 
 struct StopLimits {
@@ -135,7 +139,7 @@ private:
     }
     [[nodiscard]] bool attendant_goes_on() const {
         if (owner_ != &detail::stop_scope_of_thread) return true;  // another thread
-        return ++looks_ % 8 != 0 || limits_.attendant->goes_on();
+        return ++looks_ % 8 != 0 || limits_.attendant->goes_on(detail::locks_of_thread > 0);
     }
 
     StopScope* outer_;

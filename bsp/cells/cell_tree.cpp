@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/cells/deferred_leaf.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -108,7 +109,7 @@ std::shared_ptr<const CellNode> CellNode::deferred(std::unique_ptr<const Deferre
 }
 
 void CellNode::arrange() const {
-    const std::lock_guard lock(deferred_->arranging());
+    const WorkLock lock(deferred_->arranging());
     if (is_arranged_.load(std::memory_order_relaxed)) return;
     polygons_ = deferred_->arrange(*deferred_);
     is_arranged_.store(true, std::memory_order_release);

@@ -21,6 +21,7 @@
 #include <trisect/bsp/cells/node_fact.h>
 #include <trisect/bsp/cells/source.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -282,7 +283,7 @@ public:
     /// one there is. Nothing is published when `make()` returns null.
     template <class Make>
     const CellNode* refine(Make&& make) const {
-        const std::lock_guard lock(refining_);
+        const WorkLock lock(refining_);
         if (refinement() == nullptr) {
             kept_refinement_ = make();
             refinement_.store(kept_refinement_.get(), std::memory_order_release);

@@ -9,6 +9,8 @@
 
 #include <utility>
 
+#include <trisect/kernel/support/work_lock.h>
+
 namespace trisect::detail {
 
 LazyTree::LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateSettings& settings,
@@ -24,13 +26,13 @@ LazyTree::LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateSett
 }
 
 const std::shared_ptr<const SolidState>& LazyTree::cut() const {
-    const std::lock_guard lock(cutting_);
+    const WorkLock lock(cutting_);
     if (cut_ == nullptr) cut_ = evaluate_(formula_, solids_, settings_);
     return cut_;
 }
 
 bool LazyTree::is_cut() const {
-    const std::lock_guard lock(cutting_);
+    const WorkLock lock(cutting_);
     return cut_ != nullptr;
 }
 

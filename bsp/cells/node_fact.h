@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 
+#include <trisect/kernel/support/work_lock.h>
+
 namespace trisect::detail {
 
 /// A function of a node's cell and of the polygons that are listed there, clipped to the cell: of
@@ -35,7 +37,7 @@ public:
     template <class Make>
     const NodeFact& get_or(const Make& make) const {
         if (const NodeFact* there = get()) return *there;
-        const std::lock_guard lock(mutex_of(this));
+        const WorkLock lock(mutex_of(this));
         if (const NodeFact* there = get()) return *there;
         std::unique_ptr<const NodeFact> made = make();
         const NodeFact& fact = *made;

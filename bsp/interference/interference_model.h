@@ -15,7 +15,7 @@
 namespace trisect {
 
 namespace detail {
-struct InterferenceModelData;
+class LazyModel;
 struct InterferenceModelAccess;
 }  // namespace detail
 
@@ -37,26 +37,33 @@ struct InterferenceModelStats {
 ///
 /// Poses are applied to the solid, never to the model: nothing in it ever moves.
 ///
+/// Solids answer the same questions without one, by the tree that they have
+/// (solid_interference.h). A model is for those who want entities of a B-rep, certificates, or very
+/// many questions about a solid that stays as it is: these are faster then.
+///
 /// Immutable value; copying shares. Safe to use from many threads. The empty solid is allowed: it
 /// is disjoint from everything, and a model that was moved from is that of the empty solid. Cost:
-/// Solid::to_brep and O(n log n).
+/// none at first. Solid::to_brep when the B-rep is first needed, and O(n log n) beside it at the
+/// first question; other threads wait.
 class InterferenceModel {
 public:
     /// Of the empty solid.
     InterferenceModel();
     /// A solid imported under Embedding::Resolve is resolved first.
-    /// \throw UnsupportedError when the solid is unbounded; what evaluate() and Solid::to_brep
-    /// throw.
+    /// \throw UnsupportedError when the solid is unbounded; what evaluate() throws
     explicit InterferenceModel(const Solid& solid);
     /// The same with an index that exists already; its B-rep is taken over where it has one.
     explicit InterferenceModel(const BrepIndex& index);
 
     [[nodiscard]] const Solid& solid() const;
+    /// Made at the first call. \throw what Solid::to_brep throws
     [[nodiscard]] const Brep& brep() const;
     /// Points and planes of the B-rep are in units of this lattice.
     [[nodiscard]] Lattice lattice() const;
     [[nodiscard]] bool is_empty() const;
+    /// Makes all that questions need.
     [[nodiscard]] std::size_t triangle_count() const;
+    /// The same.
     [[nodiscard]] InterferenceModelStats stats() const;
     /// The index over the solid, without a B-rep unless the model was made with one. Made at the
     /// first call, which others wait for.
@@ -65,12 +72,12 @@ public:
 private:
     friend struct detail::InterferenceModelAccess;
 
-    [[nodiscard]] const detail::InterferenceModelData& data() const {
-        return data_ != nullptr ? *data_ : *empty_data();
+    [[nodiscard]] const detail::LazyModel& shared() const {
+        return shared_ != nullptr ? *shared_ : *empty_model();
     }
-    [[nodiscard]] static const std::shared_ptr<const detail::InterferenceModelData>& empty_data();
+    [[nodiscard]] static const std::shared_ptr<const detail::LazyModel>& empty_model();
 
-    std::shared_ptr<const detail::InterferenceModelData> data_;
+    std::shared_ptr<const detail::LazyModel> shared_;
 };
 
 }  // namespace trisect

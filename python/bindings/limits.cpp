@@ -3,7 +3,8 @@
 // The library looks at its StopScope while it works. Every eighth look of the calling thread comes
 // here, and twenty times a second it takes Python's lock, lets Python run the handlers of signals
 // that have arrived, and calls `progress`. So the main thread need not hand its work to another one
-// to stay interruptible.
+// to stay interruptible. While the thread holds a lock of the library, code in Python might wait
+// for that lock: only Ctrl-C is looked at then.
 
 #include <algorithm>
 #include <vector>
@@ -49,7 +50,7 @@ const CallLimits& limits_of_thread() {
     return limits_stack.empty() ? no_limits : limits_stack.back();
 }
 
-bool PythonAttendant::goes_on() noexcept {
+bool PythonAttendant::goes_on(bool holds_locks) noexcept {
     ++looks_;
     if (stops_) return false;
     if (is_busy_) return true;  // asked by a call that `progress` made
@@ -58,7 +59,7 @@ bool PythonAttendant::goes_on() noexcept {
     is_busy_ = true;
     const py::gil_scoped_acquire acquire;
     try {
-        if (!ask_python(now)) stops_ = true;
+        if (holds_locks ? is_interrupted() : !ask_python(now)) stops_ = true;
     } catch (py::error_already_set& e) {
         failure_.emplace(std::move(e));
         stops_ = true;
@@ -68,6 +69,19 @@ bool PythonAttendant::goes_on() noexcept {
     next_ = Clock::now() + period;
     is_busy_ = false;
     return !stops_;
+}
+
+// Whether Ctrl-C came and ends what goes on, as it does where the program has no handler for it.
+bool PythonAttendant::is_interrupted() {
+    if (PyOS_InterruptOccurred() == 0) return false;
+    const py::module_ signals = py::module_::import("signal");
+    if (!signals.attr("getsignal")(signals.attr("SIGINT"))
+             .is(signals.attr("default_int_handler"))) {
+        PyErr_SetInterrupt();  // for later
+        return false;
+    }
+    PyErr_SetNone(PyExc_KeyboardInterrupt);
+    throw py::error_already_set();
 }
 
 bool PythonAttendant::ask_python(Clock::time_point now) {
@@ -95,7 +109,8 @@ max_memory : int, optional
     Bytes that lists and results of one boolean may hold at once; 0 is no limit.
 progress : callable, optional
     Called as ``progress(seconds, steps)`` some twenty times a second by the thread that
-    works, with the time since the call began and the number of steps done by this thread.
+    works, with the time since the call began and the number of steps done by this thread;
+    less often while something is made that other threads may wait for.
     How many there will be is not known. What it raises ends the call; so does returning False,
     with `CancelledError`.
 

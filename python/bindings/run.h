@@ -40,7 +40,7 @@ public:
     PythonAttendant& operator=(const PythonAttendant&) = delete;
     ~PythonAttendant() override = default;
 
-    [[nodiscard]] bool goes_on() noexcept override;
+    [[nodiscard]] bool goes_on(bool holds_locks) noexcept override;
     [[nodiscard]] const std::atomic<bool>& stops() const { return stops_; }
     /// What a handler of a signal or `progress` raised, if anything.
     void rethrow() {
@@ -52,6 +52,7 @@ private:
     static constexpr std::chrono::milliseconds period{50};
 
     [[nodiscard]] bool ask_python(Clock::time_point now);
+    [[nodiscard]] bool is_interrupted();
 
     const CallLimits& limits_;
     Clock::time_point begin_;

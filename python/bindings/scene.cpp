@@ -3,10 +3,12 @@
 // Scenes: many placed solids, some of them jointed.
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -26,13 +28,30 @@ namespace {
 // One thread at a time may use a Scene; the interpreter's lock is released while it works.
 struct LockedScene {
     std::mutex mutex;
+    std::atomic<std::thread::id> user;
     Scene scene;
+};
+
+class SceneUse {
+public:
+    explicit SceneUse(std::atomic<std::thread::id>& user) : user_(user) {
+        user_ = std::this_thread::get_id();
+    }
+    SceneUse(const SceneUse&) = delete;
+    SceneUse& operator=(const SceneUse&) = delete;
+    ~SceneUse() { user_ = std::thread::id(); }
+
+private:
+    std::atomic<std::thread::id>& user_;
 };
 
 template <class F>
 auto with_scene(LockedScene& locked, const F& f) {
     return run([&] {
+        if (locked.user == std::this_thread::get_id())
+            throw UsageError("a Scene cannot be used by what is called while it works");
         const std::lock_guard lock(locked.mutex);
+        const SceneUse use(locked.user);
         return f(locked.scene);
     });
 }

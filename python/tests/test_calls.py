@@ -173,6 +173,36 @@ def test_progress_may_call_the_library(many, cube):
     assert set(volumes) == {2.0}
 
 
+def test_progress_may_use_what_the_call_works_on(many):
+    parts = [a - b for a, b in zip(many, many[1:])]  # their trees are made when first needed
+    calls = []
+
+    def nested(seconds, steps):
+        part = parts[len(calls) % len(parts)]
+        calls.append(part.locate((0.1, 0.2, 0.3)).location)
+
+    with trisect.limits(progress=nested):
+        for _ in for_some_seconds():
+            trisect.union(parts)
+            for part in parts:
+                part.locate((0, 0, 0))
+            if len(calls) >= 3:
+                break
+    assert len(calls) >= 3
+
+
+def test_a_scene_is_not_used_by_progress_of_its_own(many):
+    scene = trisect.Scene()
+    for ball in many:
+        scene.add(ball)
+    with trisect.limits(progress=lambda seconds, steps: len(scene)):
+        with pytest.raises(trisect.UsageError, match="while it works"):
+            for i in for_some_seconds():
+                scene.interfering(contacts=True)
+                scene.add(many[0].translate((0.001 * len(scene), 0, 0)))
+    assert len(scene) >= len(many)
+
+
 def test_limits(balls):
     with trisect.limits(max_work=1000):
         with pytest.raises(trisect.LimitError, match="work budget of 1000"):

@@ -20,9 +20,11 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/bsp/solid_transform.h>
 
 namespace {
 
@@ -192,7 +194,7 @@ TEST(Stop, OuterScopesStopInnerOnes) {
 class Patience final : public trisect::StopAttendant {
 public:
     explicit Patience(std::uint64_t times) : left_(times) {}
-    [[nodiscard]] bool goes_on() noexcept override {
+    [[nodiscard]] bool goes_on(bool) noexcept override {
         ++asked_;
         return left_ != 0 && left_-- != 0;
     }
@@ -224,6 +226,50 @@ TEST(Stop, AnAttendantStopsEvaluation) {
     Patience patience(endless.asked() / 2);
     const StopScope scope({.attendant = &patience});
     EXPECT_THROW((void)evaluate(ball - cut_ball()).to_mesh(1), trisect::CancelledError);
+}
+
+// Works with a solid whenever it may, as a handler of an interpreter would.
+class User final : public trisect::StopAttendant {
+public:
+    explicit User(Solid solid) : solid_(std::move(solid)) {}
+    [[nodiscard]] bool goes_on(bool holds_locks) noexcept override {
+        if (holds_locks) ++refused_;
+        if (is_busy_) return true;
+        is_busy_ = true;
+        if (!holds_locks && ++used_ % 64 == 1)
+            is_outside_ = is_outside_ &&
+                          trisect::BrepIndex(solid_).locate(trisect::Point3d{3, 0, 0}).location ==
+                              trisect::Location::Outside;
+        is_busy_ = false;
+        return true;
+    }
+    [[nodiscard]] std::uint64_t used() const { return used_; }
+    [[nodiscard]] std::uint64_t refused() const { return refused_; }
+    [[nodiscard]] bool found_the_point_outside() const { return is_outside_; }
+
+private:
+    Solid solid_;
+    std::uint64_t used_ = 0;
+    std::uint64_t refused_ = 0;
+    bool is_outside_ = true;
+    bool is_busy_ = false;
+};
+
+TEST(Stop, AnAttendantMayUseTheSolidsUnlessLocksAreHeld) {
+    const Solid ball = Solid::from_mesh(trisect::make_icosphere(1, 5));
+    trisect::EvaluateOptions one_thread;
+    one_thread.threads = 1;
+    const Solid moved =
+        transformed(ball, trisect::AffineMap::translation(trisect::Point3d{0.5, 0.1, 0.2}));
+    // Its tree is made at the first question.
+    const Solid part = evaluate(ball - moved, one_thread);
+    User user(part);
+    const StopScope scope({.attendant = &user});
+    (void)trisect::BrepIndex(part).locate(trisect::Point3d{0, 0, 0.5});
+    EXPECT_FALSE(evaluate(part | moved).to_mesh(1).points.empty());
+    EXPECT_TRUE(user.found_the_point_outside());
+    EXPECT_GT(user.used(), 0U);
+    EXPECT_GT(user.refused(), 0U);
 }
 
 TEST(Stop, OtherThreadsAskNoAttendant) {

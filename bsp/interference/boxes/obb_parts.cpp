@@ -108,27 +108,27 @@ ObbParts::Part ObbParts::part(std::uint32_t begin, std::uint32_t end) const {
 // Across the axis along which the centres reach farthest, at their mean; at the median where the
 // mean leaves hardly anything on one side.
 std::array<ObbParts::Part, 2> ObbParts::halves(const Part& whole) {
-    std::array<float, 3> axis{};
-    float reach = -1;
-    double mean = 0;
-    for (const Vector3& a : whole.frame.axis) {
-        const std::array<float, 3> u{static_cast<float>(a[0]), static_cast<float>(a[1]),
-                                     static_cast<float>(a[2])};
-        float lo = std::numeric_limits<float>::infinity();
-        float hi = -lo;
-        double sum = 0;
-        for (std::uint32_t i = whole.begin; i < whole.end; ++i) {
-            const float c = along(u, items_[i]);
-            lo = std::min(lo, c);
-            hi = std::max(hi, c);
-            sum += static_cast<double>(c);
+    // All axes at once: along one, each sum waits for the one before.
+    std::array<std::array<float, 3>, 3> axes{};
+    std::array<float, 3> lo{};
+    std::array<float, 3> hi{};
+    std::array<double, 3> sum{};
+    lo.fill(std::numeric_limits<float>::infinity());
+    hi.fill(-std::numeric_limits<float>::infinity());
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k) axes[j][k] = static_cast<float>(whole.frame.axis[j][k]);
+    for (std::uint32_t i = whole.begin; i < whole.end; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const float c = along(axes[j], items_[i]);
+            lo[j] = std::min(lo[j], c);
+            hi[j] = std::max(hi[j], c);
+            sum[j] += static_cast<double>(c);
         }
-        if (hi - lo > reach) {
-            reach = hi - lo;
-            axis = u;
-            mean = sum / static_cast<double>(whole.size());
-        }
-    }
+    std::size_t longest = 0;
+    for (std::size_t j = 1; j < 3; ++j)
+        if (hi[j] - lo[j] > hi[longest] - lo[longest]) longest = j;
+    const std::array<float, 3>& axis = axes[longest];
+    const double mean = sum[longest] / static_cast<double>(whole.size());
     const auto first = items_.begin() + static_cast<std::ptrdiff_t>(whole.begin);
     const auto last = items_.begin() + static_cast<std::ptrdiff_t>(whole.end);
     const auto split = std::partition(

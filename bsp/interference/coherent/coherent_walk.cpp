@@ -51,6 +51,10 @@ namespace trisect::detail {
 namespace {
 
 constexpr float infinite_float = std::numeric_limits<float>::infinity();
+// A step of this part of the larger body's radius ends a front. What was open keeps its visits
+// until it is apart by twice the step: after a leap those of the old place would stay, and with
+// them all that is tested from then on.
+constexpr double leap = 0.125;
 
 float size(const ObbTree& t, ObbId id) {
     const ObbNode& n = t.nodes[id.node()];
@@ -427,6 +431,9 @@ CoherentWalk::Answer CoherentWalk::make_front() {
 CoherentWalk::Answer CoherentWalk::renew_front() {
     unknown_ = 0;
     step_ = pose_->displacement_from(*front_pose_);
+    if (step_ >
+        leap * std::max(a_->boxes.radius, static_cast<double>(pose_->scale()) * b_->boxes.radius))
+        return make_front();
     odometer_ = (odometer_ + step_) * (1 + 0x1p-52);
     turn_ = (turn_ + pose_->turn_from(*front_pose_)) * (1 + 0x1p-52);
     if (!(turn_ <= PlanePose::most_turn * static_cast<double>(pose_->scale()))) {

@@ -124,17 +124,27 @@ public:
 
 private:
     void replace(std::unique_ptr<SolidBoundary>& boundary, const Solid& solid, const auto& note) {
-        if (const auto changed = boundary->replace(solid)) {
-            last_apart_.reset();
-            if (!walk_) return;
-            note(*changed);
-            reserve_->clear();
-            return;
+        if (!is_overgrown(*boundary)) {
+            if (const auto changed = boundary->replace(solid)) {
+                last_apart_.reset();
+                if (!walk_) return;
+                note(*changed);
+                reserve_->clear();
+                return;
+            }
         }
         boundary = std::make_unique<SolidBoundary>(solid);
         begin_anew();
     }
+    // Whether most of what was opened is not near the other body any more, after it has been
+    // elsewhere: larger arrays take longer to go on with than new ones to make.
+    [[nodiscard]] bool is_overgrown(const SolidBoundary& boundary) {
+        const std::size_t nodes = boundary.boxes.nodes.size();
+        if (first_nodes_ == 0) first_nodes_ = nodes;
+        return nodes > 4 * first_nodes_ + 2048;
+    }
     void begin_anew() {
+        first_nodes_ = 0;
         if (a_->is_empty() || b_->is_empty())
             end();
         else
@@ -150,6 +160,7 @@ private:
 
     std::unique_ptr<SolidBoundary> a_;
     std::unique_ptr<SolidBoundary> b_;
+    std::size_t first_nodes_ = 0;  // of the body that is replaced, after the first questions
 };
 
 }  // namespace

@@ -24,8 +24,8 @@ protected:
     [[nodiscard]] Relation relation_at(const Pose& pose_a, const Pose& pose_b) override {
         return interfere(a_, pose_a, b_, pose_b).relation;
     }
-    [[nodiscard]] const BrepIndex& index_a() override { return detail::data_of(a_).index(); }
-    [[nodiscard]] const BrepIndex& index_b() override { return detail::data_of(b_).index(); }
+    [[nodiscard]] const BrepIndex& index_a() override { return a_.index(); }
+    [[nodiscard]] const BrepIndex& index_b() override { return b_.index(); }
 
 private:
     const InterferenceModel& a_;

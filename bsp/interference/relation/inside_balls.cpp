@@ -240,7 +240,7 @@ std::optional<Relation> overlap_if_both_stick_out(const Boundary& a, const Bound
 
 bool is_certainly_inside(const InterferenceModelData& model, Vector3 p) {
     for (double& c : p) c = std::ldexp(c, model.brep.lattice().exponent);
-    return model.index().locate(p).location == Location::Inside;
+    return model.model.index().locate(p).location == Location::Inside;
 }
 
 Vector3 in_tree(const ObbTree& tree, const Vector3& p) {

@@ -92,7 +92,7 @@ bool is_inside(const InterferenceModelData& model, VertexId v, const RelativePos
     }
     std::array<ExactRational, 3> x = moved(detail::exact_place(p), to_other).c;
     for (ExactRational& c : x) c = c.scaled(other.brep.lattice().exponent);
-    const Location location = other.index().locate(x).location;
+    const Location location = other.model.index().locate(x).location;
     TRISECT_EXPECTS(location == Location::Inside || location == Location::Outside,
                     "a shell without contact has a vertex on the other boundary");
     return location == Location::Inside;

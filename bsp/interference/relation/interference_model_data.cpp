@@ -15,15 +15,12 @@
 #include <cmath>
 #include <limits>
 
-#include <trisect/brep/measure.h>
 #include <trisect/brep/triangulate.h>
-#include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/expression.h>
 #include <trisect/kernel/contract.h>
-#include <trisect/kernel/error.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/seconds_since.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -64,21 +61,6 @@ private:
 // Balls take about as long as some thousand queries; after so many queries there may be more.
 constexpr std::uint32_t questions_before_balls = 1000;
 
-// The volume below the faces of an unbounded solid with a bounded boundary is negative.
-bool is_bounded(const Brep& brep) { return brep.is_empty() || volume(brep) > 0; }
-
-Brep boundary_of(const Solid& solid) {
-    Brep brep = solid.to_brep();
-    if (solid.is_whole_space() || !is_bounded(brep))
-        throw UnsupportedError("an unbounded solid has no interference model");
-    return brep;
-}
-
-// A boundary that may cross itself is made free of that first.
-Solid resolved(const Solid& solid) {
-    return detail::state_of(solid)->embedded ? solid : evaluate(Expression(solid));
-}
-
 }  // namespace
 
 void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>& triangles) {
@@ -104,23 +86,8 @@ void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>&
     }
 }
 
-InterferenceModelData::InterferenceModelData(const Solid& s) : solid(resolved(s)) {
-    const auto start = std::chrono::steady_clock::now();
-    brep = boundary_of(solid);
-    brep_seconds = seconds_since(start);
-    build();
-}
-
-InterferenceModelData::InterferenceModelData(const BrepIndex& i) : solid(i.solid()), index_(i) {
-    const auto start = std::chrono::steady_clock::now();
-    brep = i.has_brep() ? i.brep() : boundary_of(solid);
-    brep_seconds = seconds_since(start);
-    build();
-}
-
-InterferenceModelData::InterferenceModelData(const Brep& b) : brep(b) { build(); }
-
-void InterferenceModelData::build() {
+InterferenceModelData::InterferenceModelData(const LazyModel& m, const Brep& b)
+    : model(m), brep(b) {
     const auto start = std::chrono::steady_clock::now();
     lattice = brep.lattice();
     first_triangle.reserve(brep.faces().size() + 1);
@@ -170,15 +137,8 @@ void InterferenceModelData::build() {
             brep.origin(brep.halfedges(brep.outer_loop(brep.faces(s).front()))[0]));
 }
 
-const BrepIndex& InterferenceModelData::index() const {
-    std::call_once(index_once_, [this] {
-        if (!index_) index_.emplace(solid);
-    });
-    return *index_;
-}
-
 const InsideBalls& InterferenceModelData::balls() const {
-    std::call_once(balls_once_, [this] {
+    work_once(balls_once_, [this] {
         if (!is_empty()) balls_ = InsideBalls(*this);
         questions_.store(questions_before_balls, std::memory_order_release);
     });

@@ -8,17 +8,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include <trisect/brep/brep.h>
-#include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/interference/boxes/obb_tree.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/inside_balls.h>
-#include <trisect/bsp/solid.h>
+#include <trisect/bsp/interference/relation/lazy_model.h>
 
 namespace trisect::detail {
 
@@ -35,15 +33,13 @@ struct ModelTriangle {
 /// a side.
 void append_triangles(const Brep& brep, FaceId face, std::vector<ModelTriangle>& triangles);
 
-/// Immutable once built, except for the index, which is made on first use.
+/// Immutable once built, except for what is made on first use.
 struct InterferenceModelData final : Boundary {
-    explicit InterferenceModelData(const Solid& s);
-    explicit InterferenceModelData(const BrepIndex& i);
-    /// Of a boundary alone. `index()` may not be called.
-    explicit InterferenceModelData(const Brep& b);
+    /// Of the model and its B-rep, which outlive this.
+    InterferenceModelData(const LazyModel& m, const Brep& b);
 
-    Solid solid;
-    Brep brep;
+    const LazyModel& model;
+    const Brep& brep;
 
     /// In order of their faces.
     std::vector<ModelTriangle> triangles;
@@ -58,7 +54,6 @@ struct InterferenceModelData final : Boundary {
     /// A vertex of each shell.
     std::vector<VertexId> shell_vertex;
 
-    double brep_seconds = 0;
     double triangulate_seconds = 0;
     double boxes_seconds = 0;
 
@@ -75,10 +70,8 @@ struct InterferenceModelData final : Boundary {
         const ModelTriangle& t = triangles[triangle];
         return {position(t.vertex[0]), position(t.vertex[1]), position(t.vertex[2])};
     }
-    /// Safe to call from several threads.
-    [[nodiscard]] const BrepIndex& index() const;
     /// Balls inside, made after some questions, since making them takes as long as many of these;
-    /// null before. Safe to call from several threads. \pre the index may be used
+    /// null before. Safe to call from several threads.
     [[nodiscard]] const InsideBalls* balls_in_time() const override;
     /// The same, made at once.
     [[nodiscard]] const InsideBalls& balls() const;
@@ -94,10 +87,6 @@ struct InterferenceModelData final : Boundary {
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    void build();
-
-    mutable std::once_flag index_once_;
-    mutable std::optional<BrepIndex> index_;
     mutable std::once_flag self_contact_once_;
     mutable bool touches_itself_ = false;
     mutable std::vector<std::atomic<std::uint8_t>> clear_;
@@ -108,10 +97,11 @@ private:
 
 struct InterferenceModelAccess {
     [[nodiscard]] static const InterferenceModelData& data(const InterferenceModel& model) {
-        return model.data();
+        return model.shared().data();
     }
 };
 
+/// Made when it is first needed. \throw what InterferenceModel::brep() throws
 [[nodiscard]] inline const InterferenceModelData& data_of(const InterferenceModel& model) {
     return InterferenceModelAccess::data(model);
 }

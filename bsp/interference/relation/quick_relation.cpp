@@ -72,7 +72,7 @@ std::optional<bool> is_certainly_inside(const InterferenceModelData& model, Vert
         place[k] = std::ldexp(x[k], other.brep.lattice().exponent);
         if (std::ldexp(place[k], -other.brep.lattice().exponent) != x[k]) return std::nullopt;
     }
-    return other.index().locate(place).location == Location::Inside;
+    return other.model.index().locate(place).location == Location::Inside;
 }
 
 std::optional<Relation> relation_of_apart(const InterferenceModelData& a, const Pose& pose_a,

@@ -27,6 +27,7 @@
 #include <trisect/bsp/interference/relation/meeting_pairs.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -224,8 +225,8 @@ bool find_clear(const InterferenceModelData& model, std::uint32_t s) {
 }  // namespace
 
 bool InterferenceModelData::touches_itself() const {
-    std::call_once(self_contact_once_,
-                   [this] { touches_itself_ = !is_empty() && find_self_contact(*this); });
+    work_once(self_contact_once_,
+              [this] { touches_itself_ = !is_empty() && find_self_contact(*this); });
     return touches_itself_;
 }
 

@@ -74,7 +74,7 @@ BodyBounds::BodyBounds(const InterferenceModelData& model) {
     for (const std::array<double, 3>& p : model.positions) add_point(cells[cell_of(p, model)], p);
     for (const BodyBox& cell : cells) {
         if (cell.lo[0] <= cell.hi[0])
-            parts_.push_back(part_of(cell, model.solid.lattice(), model.position_error));
+            parts_.push_back(part_of(cell, model.lattice, model.position_error));
     }
 }
 

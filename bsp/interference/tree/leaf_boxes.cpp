@@ -15,6 +15,7 @@
 #include <trisect/bsp/interference/tree/point_gap.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -138,7 +139,7 @@ std::size_t LeafBoxes::bytes() const {
 }
 
 const LeafBoxes& BoxedLeaf::boxes() const {
-    std::call_once(once_, [this] {
+    work_once(once_, [this] {
         boxes_ = std::make_unique<const LeafBoxes>(listed_leaf(leaf_, cell_));
         BoxesCounters& counters = boxes_counters();
         ++counters.leaves;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <trisect/bsp/interference/tree/leaf_boxes.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -133,7 +134,7 @@ std::vector<BoundaryPoint> LeafBoxes::find_pieces() const {
 }
 
 std::span<const BoundaryPoint> LeafBoxes::pieces() const {
-    std::call_once(pieces_once_, [this] {
+    work_once(pieces_once_, [this] {
         pieces_ = find_pieces();
         pieces_.shrink_to_fit();
     });

@@ -9,6 +9,7 @@
 
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -62,7 +63,7 @@ const LeafTree::Node& LeafTree::divide(std::uint32_t begin, std::uint32_t size,
 
 const LeafTree::Node& LeafTree::root() const {
     if (const Node* const known = root_.load(std::memory_order_acquire)) return *known;
-    const std::lock_guard lock(dividing_);
+    const WorkLock lock(dividing_);
     if (const Node* const known = root_.load(std::memory_order_relaxed)) return *known;
     const Node& made = divide(0, size(), nullptr);
     root_.store(&made, std::memory_order_release);
@@ -71,7 +72,7 @@ const LeafTree::Node& LeafTree::root() const {
 
 // The frame is that of the box, whose floats are all that division looks at.
 const LeafTree::Node& LeafTree::make_below(const Node& node, std::uint32_t lane) const {
-    const std::lock_guard lock(dividing_);
+    const WorkLock lock(dividing_);
     if (const Node* const known = node.below_[lane].load(std::memory_order_relaxed)) return *known;
     AreaFrame frame;
     for (std::size_t i = 0; i < 3; ++i)
@@ -91,7 +92,7 @@ ObbNode LeafTree::boxes_of(std::span<const std::uint32_t> triangles) const {
 }
 
 std::size_t LeafTree::bytes() const {
-    const std::lock_guard lock(dividing_);
+    const WorkLock lock(dividing_);
     return order_.capacity() * sizeof(order_[0]) + nodes_.size() * (sizeof(Node) + sizeof(void*));
 }
 

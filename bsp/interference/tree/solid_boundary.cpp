@@ -17,12 +17,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <trisect/bsp/interference/tree/boxes_counters.h>
 #include <trisect/bsp/interference/tree/clipped_polygon.h>
 #include <trisect/bsp/query/index/index_cells.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/support/spares.h>
 
 namespace trisect::detail {
 
@@ -52,17 +54,55 @@ SolidBoundary::SolidBoundary(const Solid& solid) : base_(std::make_unique<const 
     if (base_->is_inside_beyond() || !(largest < 0x1p60))
         throw UnsupportedError("interference of an unbounded solid");
     set_frame();
-    parts_.reserve(64);
-    part_of_.reserve(256);
-    boxes.nodes.reserve(64);
-    boxes.parent.reserve(64);
-    inner_.reserve(128);
+    Memory memory = Spares<Memory>::take();
+    swap_with(memory);
     boxes.source = this;
     parts_.push_back(part(root, Cell{}, base_->root().complemented));
     const std::uint32_t node = add_node(ObbId{});
     put_box(node, 0, parts_[0].box);
     part_of_[0] = 0;
     boxes.nodes[node].child[0] = ObbChild::pending(0);
+}
+
+SolidBoundary::~SolidBoundary() {
+    constexpr std::size_t most = std::size_t{4} << 20U;  // of large searches nothing is kept
+    Memory memory;
+    swap_with(memory);
+    if (memory.nodes.capacity() == 0 || memory.bytes() > most) return;
+    memory.clear();
+    Spares<Memory>::give(std::move(memory));
+}
+
+void SolidBoundary::swap_with(Memory& memory) noexcept {
+    memory.nodes.swap(boxes.nodes);
+    memory.parent.swap(boxes.parent);
+    memory.order.swap(boxes.order);
+    memory.corners.swap(boxes.corners);
+    memory.positions.swap(positions);
+    memory.parts.swap(parts_);
+    memory.part_of.swap(part_of_);
+    memory.leaves.swap(leaves_);
+    memory.inner.swap(inner_);
+    memory.triangle_of.swap(triangle_of_);
+}
+
+void SolidBoundary::Memory::clear() {
+    nodes.clear();
+    parent.clear();
+    order.clear();
+    corners.clear();
+    positions.clear();
+    parts.clear();
+    part_of.clear();
+    leaves.clear();
+    inner.clear();
+    triangle_of.clear();
+}
+
+std::size_t SolidBoundary::Memory::bytes() const {
+    const auto of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
+    return of(nodes) + of(parent) + of(order) + of(corners) + of(positions) + of(parts) +
+           of(part_of) + of(leaves) + of(inner) + of(triangle_of);
 }
 
 // Of a node: its bounds in its cell.

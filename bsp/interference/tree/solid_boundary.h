@@ -26,6 +26,9 @@ public:
     /// \throw UnsupportedError when the solid is unbounded; what evaluate() throws, for a solid
     /// that must be resolved.
     explicit SolidBoundary(const Solid& solid);
+    SolidBoundary(const SolidBoundary&) = delete;
+    SolidBoundary& operator=(const SolidBoundary&) = delete;
+    ~SolidBoundary() override;
 
     /// Goes on with another solid, keeping the boxes of all nodes that both have: nearly all after
     /// a cut. Which boxes are other ones; or nothing, and nothing has changed, where a new boundary
@@ -98,8 +101,29 @@ private:
         const LeafBoxes* boxes = nullptr;
         bool turned = false;
     };
+    struct TriangleOf {
+        std::uint32_t leaf = 0;  // of leaves_
+        std::uint32_t triangle = 0;
+    };
+    // Of the arrays that grow with what is opened.
+    struct Memory {
+        std::vector<ObbNode> nodes;
+        std::vector<std::uint32_t> parent;
+        std::vector<std::uint32_t> order;
+        std::vector<std::array<std::uint32_t, 3>> corners;
+        std::vector<std::array<double, 3>> positions;
+        std::vector<Part> parts;
+        std::vector<std::uint32_t> part_of;
+        std::vector<OpenedLeaf> leaves;
+        std::vector<Inner> inner;
+        std::vector<TriangleOf> triangle_of;
+
+        void clear();
+        [[nodiscard]] std::size_t bytes() const;
+    };
     static constexpr std::uint32_t none = 0xffffffffU;
 
+    void swap_with(Memory& memory) noexcept;
     std::uint32_t open(ObbId id) override;
     void find_bounds();
     void set_frame();
@@ -130,11 +154,7 @@ private:
     std::vector<Part> parts_;
     std::vector<std::uint32_t> part_of_;  // of parts_, by the index of an ObbId; or none
     std::vector<OpenedLeaf> leaves_;
-    std::vector<Inner> inner_;  // what is pending below boxes of leaves
-    struct TriangleOf {
-        std::uint32_t leaf = 0;  // of leaves_
-        std::uint32_t triangle = 0;
-    };
+    std::vector<Inner> inner_;             // what is pending below boxes of leaves
     std::vector<TriangleOf> triangle_of_;  // of leaves, by the numbers here
 };
 

@@ -53,8 +53,8 @@ void IndexPolygons::add(const PolygonRef& ref) {
     r.reaches_out = cell_.contains(box) ? 0 : 1;
     whole_ = whole_ && ref.source->is_whole();
     if (ref.fragment != nullptr || ref.source->is_half_space()) {
-        r.convex = static_cast<std::uint32_t>(convex_.size()) & triangle;
-        convex_.push_back({box, ref.fragment});
+        r.fragment = static_cast<std::uint32_t>(fragments_.size()) & triangle;
+        fragments_.push_back(ref.fragment);
         if (ref.fragment != nullptr)
             for (const EdgeName& e : ref.fragment->edges())
                 if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
@@ -72,7 +72,7 @@ ConvexPolygon IndexPolygons::part(Id id) const {
         out = ConvexPolygon(support(id), edges(id));
     }
     if (!reaches_out(id)) return out;
-    const Box box = is_triangle(id) ? source(id).facet_box(facet(id)) : convex(id).box;
+    const Box box = box_of(id);
     for (int k = 0; k < 3 && !out.is_empty(); ++k) {
         const auto kk = static_cast<std::size_t>(k);
         if (box.lo[kk] <= lattice_below(cell_.lo[kk])) out = out.clip_above(wall(k, cell_.lo[kk]));
@@ -95,8 +95,8 @@ std::vector<Plane> IndexPolygons::edges(Id id) const {
         const Source& s = source(id);
         const Plane plane = s.support(facet(id));
         for (int i = 0; i < 3; ++i) out.push_back(s.edge_plane(facet(id), i, plane));
-    } else if (const Fragment* const fragment = convex(id).fragment) {
-        for (const EdgeName& e : fragment->edges()) {
+    } else if (const Fragment* const cut = fragment(id)) {
+        for (const EdgeName& e : cut->edges()) {
             const Plane p = e.plane.plane();
             out.push_back(e.above ? p.flipped() : p);
         }
@@ -136,7 +136,7 @@ FaceSource IndexPolygons::face_source(Id id) const { return source(id).name_of(f
 
 std::size_t IndexPolygons::bytes() const {
     return sizeof(*this) + records_.capacity() * sizeof(Record) +
-           convex_.capacity() * sizeof(Convex);
+           fragments_.capacity() * sizeof(fragments_[0]);
 }
 
 }  // namespace trisect::detail

@@ -29,8 +29,8 @@ namespace trisect::detail {
 /// listed by its box.
 ///
 /// The number of a facet of a mesh that nothing has happened to is its own: then there is no table
-/// at all. Otherwise a polygon takes 16 bytes, and what is not a whole triangle 56 more. Sources
-/// and fragments must outlive the table.
+/// at all. Otherwise a polygon takes 16 bytes, and what is not a whole triangle 8 more. Sources and
+/// fragments must outlive the table.
 class IndexPolygons {
 public:
     using Id = std::uint32_t;
@@ -50,7 +50,7 @@ public:
     [[nodiscard]] const Source* only_source() const { return only_; }
 
     [[nodiscard]] bool is_triangle(Id id) const {
-        return only_ != nullptr || records_[id].convex == triangle;
+        return only_ != nullptr || records_[id].fragment == triangle;
     }
     [[nodiscard]] const Source& source(Id id) const {
         return only_ != nullptr ? *only_ : *records_[id].source;
@@ -86,23 +86,23 @@ public:
     /// that is a whole plane. Made from names: about 0.1 us each.
     [[nodiscard]] std::vector<Plane> edges(Id id) const;
     [[nodiscard]] bool is_unbounded(Id id) const {
-        return !is_triangle(id) && convex(id).fragment == nullptr;
+        return !is_triangle(id) && fragment(id) == nullptr;
     }
     /// Counter-clockwise seen from above the source's support. \pre not unbounded.
     [[nodiscard]] std::vector<Point> corners(Id id) const;
     /// The same in doubles, of what is no triangle.
     [[nodiscard]] std::span<const Approximation> approximate_corners(Id id) const {
-        const Fragment* const f = convex(id).fragment;
+        const Fragment* const f = fragment(id);
         return f != nullptr ? f->vertices() : std::span<const Approximation>{};
     }
     /// Of its edges, in the order of its corners; none of what is a whole facet.
     [[nodiscard]] std::span<const EdgeName> edge_names(Id id) const {
-        if (is_triangle(id) || convex(id).fragment == nullptr) return {};
-        return convex(id).fragment->edges();
+        if (is_triangle(id) || fragment(id) == nullptr) return {};
+        return fragment(id)->edges();
     }
     /// Contains the polygon, in lattice units; of triangles, no more.
     [[nodiscard]] DoubleBox bounds(Id id) const {
-        return is_triangle(id) ? triangle_bounds(id) : bounds(convex(id).box);
+        return is_triangle(id) ? triangle_bounds(id) : bounds(box_of(id));
     }
     /// What lies at these positions.
     [[nodiscard]] DoubleBox bounds(const Box& box) const;
@@ -115,26 +115,28 @@ private:
     struct Record {
         const Source* source = nullptr;
         std::uint32_t facet = 0;
-        std::uint32_t convex : 30 = triangle;  // of convex_
+        std::uint32_t fragment : 30 = triangle;  // of fragments_
         std::uint32_t flipped : 1 = 0;
         std::uint32_t reaches_out : 1 = 0;
     };
     static constexpr std::uint32_t triangle = (1U << 30U) - 1;
-    // What is not a whole triangle. Its leaf keeps the fragment; null for a whole plane.
-    struct Convex {
-        Box box;
-        const Fragment* fragment = nullptr;
-    };
 
     [[nodiscard]] DoubleBox triangle_bounds(Id id) const;
-    [[nodiscard]] const Convex& convex(Id id) const { return convex_[records_[id].convex]; }
+    // Of what is no whole triangle. Its leaf keeps it; null for a whole plane.
+    [[nodiscard]] const Fragment* fragment(Id id) const {
+        return fragments_[records_[id].fragment];
+    }
+    [[nodiscard]] Box box_of(Id id) const {
+        const bool is_whole = is_triangle(id) || fragment(id) == nullptr;
+        return is_whole ? source(id).facet_box(facet(id)) : fragment(id)->box();
+    }
     void add(const PolygonRef& ref);
 
     const Source* only_ = nullptr;
     bool whole_ = true;
     std::uint32_t size_ = 0;
     std::vector<Record> records_;
-    std::vector<Convex> convex_;
+    std::vector<const Fragment*> fragments_;
     Cell cell_;
 };
 

@@ -33,6 +33,7 @@
 #include <trisect/bsp/query/index/index_signs.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
 
@@ -158,7 +159,7 @@ IndexedLeaf::Cell IndexedLeaf::whole() const {
 // What others see of a cell before its slot is the old slot, afterwards everything below it.
 std::uint32_t IndexedLeaf::divide(std::size_t cell) const {
     check_stop();
-    const std::lock_guard lock(dividing());
+    const WorkLock lock(dividing());
     const std::atomic_ref slot(roots_[cell]);
     if (const std::uint32_t s = slot.load(std::memory_order_relaxed); s != IndexSlot::pending)
         return s;
@@ -172,7 +173,7 @@ void IndexedLeaf::divide_all() const {
 }
 
 IndexedLeaf::Stats IndexedLeaf::stats() const {
-    const std::lock_guard lock(dividing());
+    const WorkLock lock(dividing());
     Stats s;
     s.nodes = roots_.size();
     for (std::uint32_t& root : roots_) {
@@ -418,7 +419,7 @@ IndexedLeaf::IndexedLeaf(const CellNode& node, const detail::Cell& cell)
 }
 
 void IndexedLeaf::build() const {
-    const std::lock_guard lock(dividing());
+    const WorkLock lock(dividing());
     if (divided_.load(std::memory_order_relaxed)) return;
     // Nobody has seen what is made now.
     IndexedLeafBuilder(const_cast<IndexedLeaf&>(*this)).build();

@@ -30,7 +30,7 @@ ExactPoint FromWorld::moved_back(const ExactPoint& p) const {
 }
 
 bool FromWorld::is_inside(const ExactPoint& p) const {
-    return model_->index().locate(moved_back(p)).location == Location::Inside;
+    return model_->model.index().locate(moved_back(p)).location == Location::Inside;
 }
 
 }  // namespace trisect::detail

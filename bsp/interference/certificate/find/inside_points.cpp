@@ -62,7 +62,7 @@ private:
     static Location locate(const InterferenceModelData& model, const ExactPlace& p) {
         std::array<ExactRational, 3> x = p.c;
         for (ExactRational& c : x) c = c.scaled(model.brep.lattice().exponent);
-        return model.index().locate(x).location;
+        return model.model.index().locate(x).location;
     }
     static ExactPlace shifted(const ExactPlace& p, const ExactPoint& by,
                               const ExactRational& factor) {
