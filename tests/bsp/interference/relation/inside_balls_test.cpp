@@ -53,7 +53,7 @@ void expect_inside(const InterferenceModel& model, const InsideBall& ball, Rando
     const auto& data = trisect::detail::data_of(model);
     std::array<double, 3> user = ball.center;
     for (double& c : user) c = std::ldexp(c, model.lattice().exponent);
-    EXPECT_EQ(data.index().locate(user).location, trisect::Location::Inside);
+    EXPECT_EQ(model.index().locate(user).location, trisect::Location::Inside);
     for (const auto& t : data.triangles)
         for (int n = 0; n < 20; ++n) {
             // Corners first, then points within.
