@@ -46,6 +46,8 @@ struct Request {
     std::string further_name;
 };
 
+constexpr const char* what_it_is =
+    "Exact solid modelling: booleans, measures and checks of polygon meshes.";
 constexpr const char* exit_code_help =
     "Exit codes: 0 done, yes, none found; 1 done, no, something found; 2 usage; 3 unreadable or\n"
     "malformed input; 4 not a valid solid; 5 a limit was hit; 6 cancelled; 7 unsupported;\n"
@@ -283,8 +285,7 @@ int run_request(Console& console, const std::string& name, const Request& reques
 
 /// Parses, answers --help and --version, or runs.
 int parse_and_run(Console& console, bool json, int argc, char** argv, FurtherCommand* further) {
-    CLI::App app("Exact solid modelling: booleans, measures and checks of polygon meshes.",
-                 "trisect");
+    CLI::App app(what_it_is, "trisect");
     Request request;
     request.further = further;
     declare(app, request);
@@ -314,6 +315,14 @@ int run(int argc, char** argv, FurtherCommand* further) {
         report_failure(console, json, failure);
         return failure.code;
     }
+}
+
+CommandTable command_table(FurtherCommand* further) {
+    CLI::App app(what_it_is, "trisect");
+    Request request;
+    request.further = further;
+    declare(app, request);
+    return table_of(app);
 }
 
 }  // namespace trisect::app

@@ -188,4 +188,9 @@ int run_with_comparison(int argc, char** argv) {
     return run(argc, argv, &command);
 }
 
+CommandTable table_with_comparison() {
+    CompareHierarchies command;
+    return command_table(&command);
+}
+
 }  // namespace trisect::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// write_manual FOLDER: manual pages and completion of the command, from its table of options, to
+// man1/, bash/, zsh/ and fish/ in FOLDER.
+#ifdef TRISECT_WITH_COMPARISON
+#include "trisect/compare_hierarchies_command.h"
+#else
+#include "trisect/command_line.h"
+#endif
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "completion.h"
+#include "manual_pages.h"
+
+namespace trisect::app {
+namespace {
+
+CommandTable table_of_program() {
+#ifdef TRISECT_WITH_COMPARISON
+    return table_with_comparison();
+#else
+    return command_table();
+#endif
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    file.close();
+    if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+void write_all(const std::filesystem::path& folder) {
+    const CommandTable table = table_of_program();
+    write(folder / "man1/trisect.1", program_page(table));
+    for (const CommandEntry& command : table.commands)
+        write(folder / "man1" / ("trisect-" + command.name + ".1"), command_page(table, command));
+    write(folder / "bash/trisect", bash_completion(table));
+    write(folder / "zsh/_trisect", zsh_completion(table));
+    write(folder / "fish/trisect.fish", fish_completion(table));
+}
+
+}  // namespace
+}  // namespace trisect::app
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::cerr << "usage: write_manual FOLDER\n";
+        return 2;
+    }
+    try {
+        trisect::app::write_all(argv[1]);
+    } catch (const std::exception& error) {
+        std::cerr << "write_manual: " << error.what() << '\n';
+        return 1;
+    }
+    return 0;
+}
