@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "limits.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/partitioner.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -19,6 +14,9 @@
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+
+#include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 #include "failure.h"
 
@@ -48,8 +46,7 @@ std::uint64_t mapped_data() {
 std::size_t affordable_threads(std::size_t threads, std::uint64_t max_memory) {
     const std::uint64_t used = mapped_data();
     const std::uint64_t left = max_memory > used ? max_memory - used : 0;
-    const std::uint64_t stack =
-        tbb::global_control::active_value(tbb::global_control::thread_stack_size);
+    const std::uint64_t stack = detail::stack_of_a_thread();
     return std::min<std::uint64_t>(threads, 1 + left / (4 * std::max<std::uint64_t>(stack, 1)));
 }
 
@@ -66,30 +63,30 @@ void keep_freed_blocks() {
 /// Starts all threads that may work later. oneTBB starts them when there is work, also from its own
 /// threads, where a failure would end the process.
 void start_threads(std::size_t count) {
-    if (count < 2) return;
+    if (count < 2 || !detail::has_threads) return;
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
     std::atomic<std::size_t> here{0};
-    tbb::parallel_for(
-        std::size_t{0}, count,
-        [&](std::size_t) {
-            ++here;
-            while (here < count && std::chrono::steady_clock::now() < give_up)
-                std::this_thread::yield();
-        },
-        tbb::simple_partitioner());
+    const auto wait_for_all = [&] {
+        ++here;
+        while (here < count && std::chrono::steady_clock::now() < give_up)
+            std::this_thread::yield();
+    };
+    detail::TaskGroup group;
+    for (std::size_t i = 1; i < count; ++i) group.run(wait_for_all);
+    wait_for_all();
+    group.wait();
 }
 
 }  // namespace
 
 struct Limits::Threads {
-    explicit Threads(std::size_t n) : control(tbb::global_control::max_allowed_parallelism, n) {}
-    tbb::global_control control;
+    explicit Threads(std::size_t n) : limit(n) {}
+    detail::ThreadLimit limit;
 };
 
 Limits::Limits(const CommonOptions& options) {
-    std::size_t threads = options.threads > 0
-                              ? static_cast<std::size_t>(options.threads)
-                              : static_cast<std::size_t>(tbb::info::default_concurrency());
+    std::size_t threads = options.threads > 0 ? static_cast<std::size_t>(options.threads)
+                                              : detail::threads_of_machine();
     if (options.max_memory != 0) threads = affordable_threads(threads, options.max_memory);
     if (options.threads > 0 || options.max_memory != 0)
         threads_ = std::make_unique<Threads>(threads);

@@ -5,12 +5,12 @@
 
 #include <trisect/bsp/brep_index.h>
 
-#include <tbb/concurrent_unordered_map.h>
-
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <optional>
+
+#include <trisect/kernel/support/concurrent_map.h>
 
 #include "queried_set.h"
 #include "render_scene.h"
@@ -45,7 +45,7 @@ private:
     BrepIndex index_;
     ColorOf color_;
     double diameter_;
-    mutable tbb::concurrent_unordered_map<Key, std::uint32_t, Hash> numbers_;
+    mutable detail::ConcurrentMap<Key, std::uint32_t, Hash> numbers_;
     mutable std::atomic<std::uint32_t> next_ = 0;
 };
 

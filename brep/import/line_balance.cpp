@@ -13,13 +13,12 @@
 
 #include <trisect/brep/import/line_balance.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
 
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {

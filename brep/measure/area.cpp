@@ -17,8 +17,6 @@
 
 #include <trisect/brep/measure.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -29,6 +27,7 @@
 #include <trisect/brep/measure/face_sets.h>
 #include <trisect/brep/measure/pair_corners.h>
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect {

@@ -4,8 +4,6 @@
 // They come with conversions from the kernel's registers, points in lowest terms and enclosures.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +11,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/exact_rational.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/point.h>
 
 namespace trisect::detail {

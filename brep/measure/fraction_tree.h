@@ -5,8 +5,6 @@
 // measure.cpp.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -16,6 +14,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

@@ -6,13 +6,12 @@
 // within 2^-52 of it, sums of two or three such, and one division; 2^-48 covers all of them.
 #include <trisect/brep/measure/grid_distance.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {

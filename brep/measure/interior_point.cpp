@@ -6,8 +6,6 @@
 // is met.
 #include <trisect/brep/measure/interior_point.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -16,6 +14,7 @@
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/triangulate.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

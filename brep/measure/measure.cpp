@@ -26,8 +26,6 @@
 
 #include <trisect/brep/measure.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -37,6 +35,7 @@
 #include <trisect/brep/measure/fraction_tree.h>
 #include <trisect/brep/measure/pair_corners.h>
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect {

@@ -8,10 +8,9 @@
 // [Edelsbrunner and Mücke, Simulation of simplicity, 1990].
 #include <trisect/brep/winding_number.h>
 
-#include <gmpxx.h>
-
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/plane.h>
 

@@ -2,8 +2,6 @@
 
 #include <trisect/brep/exact_rational.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -11,6 +9,7 @@
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect {
 

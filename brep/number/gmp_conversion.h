@@ -4,14 +4,13 @@
 // Public headers do not include GMP.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {

@@ -3,11 +3,11 @@
 // IntegerPolynomial: a univariate polynomial with integer coefficients of any size.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <cstddef>
 #include <utility>
 #include <vector>
+
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

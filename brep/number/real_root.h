@@ -3,14 +3,13 @@
 // RealRoot: a real algebraic number as a polynomial and an isolating interval.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <compare>
 #include <memory>
 #include <vector>
 
 #include <trisect/brep/algebraic_number.h>
 #include <trisect/brep/number/integer_polynomial.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

@@ -5,7 +5,7 @@
 // function of the C library is trusted.
 #pragma once
 
-#include <gmpxx.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

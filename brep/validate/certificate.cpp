@@ -6,8 +6,6 @@
 // difference between the point and the written double, a rational that is rounded once.
 #include <trisect/brep/certificate.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -23,6 +21,7 @@
 #include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect {

@@ -18,13 +18,12 @@
 #include <span>
 #include <utility>
 
-#include <tbb/task_arena.h>
-
 #include <trisect/bsp/cells/packed_box.h>
 #include <trisect/bsp/cells/trace/axis_trace.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/support/stack_arena.h>
 #include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect::detail {
 
@@ -311,8 +310,7 @@ void refine_all(const CellRef& root, std::uint32_t threads) {
         refine_below(*root.node, Cell{}, false);
         return;
     }
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads));
-    arena.execute([&] { refine_below(*root.node, Cell{}, true); });
+    in_arena(threads, [&] { refine_below(*root.node, Cell{}, true); });
 }
 
 }  // namespace trisect::detail

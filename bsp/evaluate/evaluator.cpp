@@ -31,8 +31,6 @@
 #include <utility>
 #include <variant>
 
-#include <tbb/task_arena.h>
-
 #include <trisect/bsp/cells/budget.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/deferred_leaf.h>
@@ -58,6 +56,7 @@
 #include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/stack_arena.h>
 #include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect::detail {
 
@@ -658,10 +657,9 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
         options.threads != 1 && options.budget == nullptr && polygons >= 2 * parallel_polygons;
     Evaluation result;
     if (shared.parallel) {
-        tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic
-                                                   : static_cast<int>(options.threads));
         try {
-            arena.execute([&] { result.tree.root = solve_root(shared, formula, solids); });
+            in_arena(options.threads,
+                     [&] { result.tree.root = solve_root(shared, formula, solids); });
         } catch (const Abandoned&) {
             shared.failure.rethrow();
         }

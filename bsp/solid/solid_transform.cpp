@@ -8,8 +8,6 @@
 
 #include <trisect/bsp/solid_transform.h>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -26,6 +24,7 @@
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/solid/moved_tree.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect {
 

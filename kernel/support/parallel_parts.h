@@ -11,21 +11,12 @@
 #include <type_traits>
 #include <vector>
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect::detail {
-
-/// How many threads may work at once here, at most.
-[[nodiscard]] inline std::size_t threads_here() {
-    return std::min(static_cast<std::size_t>(oneapi::tbb::this_task_arena::max_concurrency()),
-                    oneapi::tbb::global_control::active_value(
-                        oneapi::tbb::global_control::max_allowed_parallelism));
-}
 
 /// Returns work(n), n being 1 if `threads` is 1 and 0 otherwise: that many threads, or as many as
 /// there are where work() runs, which are at most `threads` unless that is 0. For callers that
@@ -33,8 +24,7 @@ namespace trisect::detail {
 template <class Work>
 auto on_threads(std::uint32_t threads, const Work& work) {
     if (threads <= 1) return work(threads);
-    oneapi::tbb::task_arena arena(static_cast<int>(threads));
-    return arena.execute([&] { return work(std::uint32_t{0}); });
+    return in_arena(threads, [&] { return work(std::uint32_t{0}); });
 }
 
 /// The numbers below `size`, in parts of nearly the same length, none shorter than `least`. A few
@@ -78,7 +68,7 @@ private:
                     one(part);
                 });
         };
-        oneapi::tbb::this_task_arena::isolate([&] {
+        isolated([&] {
             TaskGroup group;
             for (std::size_t i = std::min(threads_here(), count_); i > 1; --i)
                 group.run(take_parts);

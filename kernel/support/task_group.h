@@ -17,10 +17,8 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
-
 #include <trisect/kernel/support/handover.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect::detail {
 
@@ -98,14 +96,14 @@ public:
     void run(const Task& task) {
         start_.give();
         try {
-            group_.run(Start<Task>{this, task});
+            tasks_.run(Start<Task>{this, task});
         } catch (const std::runtime_error&) {
             // oneTBB could not start one more thread. The task was queued before it tried, and
             // runs on a thread that there is, at the latest in wait().
         }
     }
     void wait() {
-        group_.wait();
+        tasks_.wait();
         end_.take();
     }
 
@@ -128,8 +126,7 @@ private:
 
     Handover start_;
     Handover end_;
-    tbb::task_group_context context_{tbb::task_group_context::isolated};
-    tbb::task_group group_{context_};
+    PooledTasks tasks_;
 };
 
 /// Calls first() and second(), at the same time if another thread is free; the calling thread does
@@ -148,7 +145,7 @@ void fork_join(const First& first, const Second& second) {
 template <class First, class Second>
 void both_at_once(const First& first, const Second& second) {
     FirstFailure failure;
-    tbb::this_task_arena::isolate(
+    isolated(
         [&] { fork_join([&] { failure.guard(0, first); }, [&] { failure.guard(1, second); }); });
     failure.rethrow();
 }

@@ -5,12 +5,11 @@
 
 #include "fractions.h"
 
-#include <gmp.h>
-
 #include <string>
 #include <vector>
 
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::python {
 

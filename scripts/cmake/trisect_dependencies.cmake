@@ -5,7 +5,12 @@
 include(CMakeFindDependencyMacro)
 
 find_dependency(Threads)
-find_dependency(TBB)
+# What targets that use threads link: oneTBB, or nothing.
+set(trisect_threads "")
+if(TRISECT_WITH_TBB)
+    find_dependency(TBB)
+    set(trisect_threads TBB::tbb)
+endif()
 
 # GMP ships no CMake package. Its headers stay inside our .cpp files; consumers only link.
 if(NOT TARGET trisect::gmp)

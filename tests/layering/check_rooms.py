@@ -11,8 +11,10 @@ script), and fails where
   - an exception of the table is not needed any more;
   - an include is written relative to the file, which would work in the source tree but not once installed, or
     names a file that does not exist;
+  - a file of the libraries, the command or the bindings includes GMP or oneTBB, but for the headers in DOORS;
   - a header brings CGAL or Boost, interop/cgal.h excepted: a user who does not ask for CGAL must not need it,
-    and CGAL's licence is not ours; or a public header brings GMP or TBB, which stay private to the .cpp files;
+    and CGAL's licence is not ours; or a public header brings GMP or TBB, which stay private to the .cpp files,
+    by these headers or directly;
   - a CMakeLists.txt enters a folder that nobody made;
   - a folder is flat, with more than FLAT sources.
 """
@@ -23,6 +25,11 @@ import sys
 
 LAYERS = ('kernel', 'brep', 'bsp')
 FLAT = 44
+ABOVE = ('apps', 'c', 'python')
+# The only headers that include GMP and oneTBB, so that either can be left out or replaced in one place.
+DOORS = {'kernel/number/gmp.h': r'gmp(xx)?\.h', 'kernel/support/thread_pool.h': r'(oneapi/)?tbb/.*',
+         'kernel/support/concurrent_map.h': r'(oneapi/)?tbb/.*'}
+BEHIND = re.compile(r'gmp(xx)?\.h|(oneapi/)?tbb/')
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
 ENTERED = re.compile(r'^[ \t]*(?:trisect_add_subfolders|add_subdirectory)\(([^)]*)\)', re.MULTILINE)
 
@@ -87,6 +94,9 @@ class Check:
         self.pairs()
         for path in self.files:
             self.includes(path)
+        for path in sorted(p for folder in ABOVE for p in (self.root / folder).rglob('*')
+                           if p.suffix in ('.h', '.cpp', '.c')):
+            self.doors(str(path.relative_to(self.root)), path.read_text(encoding='utf-8'))
         for path, header in sorted(self.table.ups - self.ups_met):
             self.problems.append(f'rooms.txt: {path} -> {header} is not needed any more')
         self.folders()
@@ -144,12 +154,19 @@ class Check:
             says = self.refusal(path, room, mark, what)
             if not says and is_header and what.startswith(('CGAL/', 'boost/')):
                 says = 'CGAL and Boost stay out of headers'
-            is_private = re.match(r'gmp(xx)?\.h|tbb/|oneapi/', what)
+            is_private = BEHIND.match(what) or what.removeprefix('trisect/') in DOORS
             if not says and is_header and is_private and room and room.is_public:
                 says = 'GMP and TBB stay inside .cpp files and rooms that are not public'
             if says:
                 line = text.count('\n', 0, match.start()) + 1
                 self.problems.append(f'{path}:{line}: {match[0].strip()}   <- {says}')
+        self.doors(path, text)
+
+    def doors(self, path, text):
+        for match in INCLUDE.finditer(text):
+            if BEHIND.match(match[2]) and not re.fullmatch(DOORS.get(path, ''), match[2]):
+                line = text.count('\n', 0, match.start()) + 1
+                self.problems.append(f'{path}:{line}: {match[0].strip()}   <- only by {" ".join(sorted(DOORS))}')
 
     def refusal(self, path, room, mark, what):
         if mark == '"':

@@ -32,13 +32,14 @@ TABLE
     echo '#pragma once' >"$tree/kernel/side.h"
     echo '#include <trisect/kernel/side.h>' >"$tree/kernel/number/digits.h"
     echo '#include <trisect/kernel/side.h>' >"$tree/kernel/plane.h"
-    printf '%s\n' '#include <trisect/kernel/plane.h>' '#include <gmp.h>' \
+    echo '#include <gmpxx.h>' >"$tree/kernel/number/gmp.h"
+    printf '%s\n' '#include <trisect/kernel/plane.h>' '#include <trisect/kernel/number/gmp.h>' \
         '#include <trisect/kernel/number/digits.h>' >"$tree/kernel/plane.cpp"
     echo '#include <trisect/kernel/plane.h>' >"$tree/brep/mesh.h"
     echo '#include <CGAL/Surface_mesh.h>' >"$tree/brep/interop/cgal.h"
     echo '#include <trisect/brep/mesh.h>' >"$tree/brep/face/loop.h"
     echo '#include <trisect/brep/mesh.h> // not bsp/' >"$tree/bsp/solid.h"
-    echo '#include <gmpxx.h>' >"$tree/bsp/cells/cell.h"
+    echo '#include <trisect/kernel/number/gmp.h>' >"$tree/bsp/cells/cell.h"
     printf '%s\n' '#include <trisect/bsp/cells/cell.h>' '#include <trisect/bsp/leaf/leaf.h>' \
         >"$tree/bsp/cells/cell.cpp"
     echo '#include <trisect/bsp/solid.h>' >"$tree/bsp/cells/deferred.h"
@@ -47,6 +48,7 @@ TABLE
     printf '%s\n' '#include <trisect/bsp/solid.h>' '#include <boost/container/small_vector.hpp>' \
         '#include <trisect/bsp/leaf/leaf.h>' '#include <trisect/brep/face/loop.h>' \
         >"$tree/bsp/evaluate/solid.cpp"
+    mkdir "$tree/apps" && echo '#include <CLI/CLI.hpp>' >"$tree/apps/main.cpp"
     echo 'trisect_add_subfolders(cells evaluate)' >"$tree/bsp/CMakeLists.txt"
     : >"$tree/bsp/cells/CMakeLists.txt"
     : >"$tree/bsp/evaluate/CMakeLists.txt"
@@ -90,6 +92,13 @@ refuses kernel/plane.h '#include <CGAL/Gmpq.h>'
 refuses kernel/number/digits.h '#include <boost/config.hpp>'
 refuses brep/mesh.h '#include <gmpxx.h>'
 refuses bsp/solid.h '#include <tbb/parallel_for.h>'
+refuses brep/mesh.h '#include <trisect/kernel/number/gmp.h>'
+# GMP and oneTBB not by their doors.
+refuses bsp/cells/cell.cpp '#include <gmpxx.h>'
+refuses bsp/cells/cell.cpp '#include <tbb/parallel_for.h>'
+refuses kernel/number/gmp.h '#include <oneapi/tbb/task_group.h>'
+refuses apps/main.cpp '#include <oneapi/tbb/task_group.h>'
+refuses apps/main.cpp '#include <gmp.h>'
 # Files and folders without a room, and a room without files.
 clean_tree && mkdir "$tree/bsp/stray" && : >"$tree/bsp/stray/lost.h"
 refused 'a file in no room'

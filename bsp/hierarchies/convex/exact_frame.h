@@ -3,13 +3,12 @@
 // Integers behind a CommonFrame.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/hierarchies/convex/common_frame.h>
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::hierarchies {

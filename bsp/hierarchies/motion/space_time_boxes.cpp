@@ -14,8 +14,6 @@
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +25,7 @@
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/scene/body_bounds.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/infinity.h>
 
 namespace trisect::hierarchies {

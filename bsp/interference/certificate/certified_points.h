@@ -7,13 +7,12 @@
 // fractions that are reduced at every step cost ten times as much.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstddef>
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/interference/interference_certificate.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail::certified {
 

@@ -4,8 +4,6 @@
 // Motions are rational; how the boundaries are given is left open.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -19,6 +17,7 @@
 #include <trisect/bsp/interference/motion/facing_cones.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/motion/pair_events.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::detail {

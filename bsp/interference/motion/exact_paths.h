@@ -3,14 +3,13 @@
 // Exact paths of points and directions of moving solids.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstddef>
 #include <vector>
 
 #include <trisect/bsp/interference/motion/feature_contact.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
+#include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/point.h>
 
 namespace trisect::detail {

@@ -4,8 +4,6 @@
 // A RelativeMotion is that of one moving solid as seen from another.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstddef>
 
@@ -13,6 +11,7 @@
 #include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/interference/motion/feature_contact.h>
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

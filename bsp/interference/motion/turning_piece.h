@@ -4,11 +4,10 @@
 // It is enclosed by rational screws.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 
 #include <trisect/bsp/interference/motion/motion_piece.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

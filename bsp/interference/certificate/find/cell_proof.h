@@ -4,8 +4,6 @@
 // Space is divided by planes until no cell has points of both boundaries in it.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -14,6 +12,7 @@
 
 #include <trisect/bsp/interference/certificate/find/gmp_vector.h>
 #include <trisect/bsp/interference/interference_certificate.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 

@@ -3,13 +3,12 @@
 // Vectors of GMP's fractions, for the search for certificates.
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 
 #include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/bsp/interference/certificate/find/proof_vector.h>
 #include <trisect/bsp/interference/interference_certificate.h>
+#include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {
 
