@@ -31,7 +31,7 @@ DOORS = {'kernel/number/gmp.h': r'gmp(xx)?\.h', 'kernel/support/thread_pool.h': 
          'kernel/support/concurrent_map.h': r'(oneapi/)?tbb/.*'}
 BEHIND = re.compile(r'gmp(xx)?\.h|(oneapi/)?tbb/')
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
-ENTERED = re.compile(r'^[ \t]*(?:trisect_add_subfolders|add_subdirectory)\(([^)]*)\)', re.MULTILINE)
+ENTERED = re.compile(r'^[ \t]*(trisect_add_subfolders|add_subdirectory)\(([^)]*)\)', re.MULTILINE)
 
 Room = collections.namedtuple('Room', 'name is_public reach')
 
@@ -195,7 +195,8 @@ class Check:
                 continue
             text = re.sub(r'#.*', '', listed.read_text(encoding='utf-8'))
             for match in ENTERED.finditer(text):
-                for folder in match[1].split():
+                # Of add_subdirectory only the first word is a folder of sources.
+                for folder in match[2].split()[:1 if match[1] == 'add_subdirectory' else None]:
                     if '$' not in folder and not (listed.parent / folder / 'CMakeLists.txt').is_file():
                         self.problems.append(f'{shown} enters {folder}, which nobody made')
 
