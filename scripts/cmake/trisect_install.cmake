@@ -37,12 +37,30 @@ if(TARGET trisect_c)
         FILES ${PROJECT_BINARY_DIR}/trisect-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
     )
 endif()
+set(TRISECT_PC_REQUIRES "")
+if(TRISECT_WITH_TBB)
+    set(TRISECT_PC_REQUIRES tbb)
+endif()
 configure_file(
     ${PROJECT_SOURCE_DIR}/scripts/cmake/trisect.pc.in ${PROJECT_BINARY_DIR}/trisect.pc @ONLY
 )
 install(FILES ${PROJECT_BINARY_DIR}/trisect.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(TARGET trisect_cli)
     install(TARGETS trisect_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    set(manual ${PROJECT_BINARY_DIR}/manual)
+    set(TRISECT_ZSH_DIR ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+        CACHE STRING "Where completion for zsh is installed, below the prefix"
+    )
+    install(DIRECTORY ${manual}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+    install(
+        FILES ${manual}/bash/trisect
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+    )
+    install(FILES ${manual}/zsh/_trisect DESTINATION ${TRISECT_ZSH_DIR})
+    install(
+        FILES ${manual}/fish/trisect.fish
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d
+    )
 endif()
 
 # Headers of the public rooms (tests/layering/rooms.txt) without subfolders, but for those that only
