@@ -19,7 +19,10 @@ step 'command, Python and documentation, without a compiler'
 begin=$(date +%s)
 install ./trisect_*.deb ./python3-trisect_*.deb ./trisect-doc_*.deb
 echo "installed in $(($(date +%s) - begin)) s: $(dpkg-query -W -f '${Package} ${Version}, ' '*trisect*')"
-! command -v g++ >/dev/null
+if command -v g++ >/dev/null; then
+    echo 'use_packages: this root is not clean: it has a compiler' >&2
+    exit 1
+fi
 mkdir /work && cd /work
 python3 /trisect/tests/consumer/readme_test.py /trisect python=/usr/bin/python3 command=/usr/bin/trisect
 python3 /trisect/tests/consumer/use_package.py
@@ -31,7 +34,10 @@ count=0
 for page in $pages; do
     man -w "$page" >/dev/null
     man --warnings "$page" 2>/warnings >/page
-    [ ! -s /warnings ] && grep -q NAME /page
+    if [ -s /warnings ] || ! grep -q NAME /page; then
+        cat /warnings >&2
+        exit 1
+    fi
     count=$((count + 1))
 done
 echo "$count pages"
