@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Uses the Python package as it was installed."""
+import importlib.metadata
 import pathlib
 import pickle
 
@@ -13,4 +14,5 @@ assert again.triangle_count == len(faces)
 assert abs(again.volume - part.volume) < 1e-12
 folder = pathlib.Path(trisect.__file__).parent
 assert (folder / "py.typed").is_file() and (folder / "_trisect.pyi").is_file()
+assert importlib.metadata.version("trisect") == trisect.__version__
 print(trisect.__version__, part)
