@@ -18,6 +18,7 @@
 #include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/extrusion.h>
+#include <trisect/brep/primitives/hull.h>
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>

@@ -21,8 +21,12 @@ void bind_primitives(py::module_& m);
 void bind_files(py::module_& m);
 void bind_queries(py::module_& m);
 void bind_interference(py::module_& m);
+void bind_regions(py::module_& m);
 void bind_motion(py::module_& m);
+void bind_enclosed(py::module_& m);
+void bind_certificates(py::module_& m);
 void bind_scene(py::module_& m);
 void bind_verify(py::module_& m);
+void bind_certified_mesh(py::module_& m);
 
 }  // namespace trisect::python

@@ -2,8 +2,13 @@
 //
 // Validation with typed findings.
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -47,6 +52,42 @@ std::size_t count_of(const ValidationReport& report, const py::object& kind) {
     throw py::type_error("kind: must be a DefectKind or a Severity");
 }
 
+py::tuple finding_state(const Defect& d) {
+    return py::make_tuple(static_cast<int>(d.kind), d.vertices, d.faces, d.place, d.sentence);
+}
+
+Defect finding_of(const py::tuple& state) {
+    return {static_cast<DefectKind>(state[0].cast<int>()),
+            state[1].cast<std::vector<std::uint32_t>>(),
+            state[2].cast<std::vector<std::uint32_t>>(), state[3].cast<Point3d>(),
+            state[4].cast<std::string>()};
+}
+
+py::tuple report_state(const ValidationReport& report) {
+    std::vector<std::size_t> counts;
+    for (std::size_t i = 0; i < defect_kind_count; ++i)
+        counts.push_back(report.count(static_cast<DefectKind>(i)));
+    return py::make_tuple(counts, py::cast(report.defects()), py::cast(report.lattice()));
+}
+
+// Where more were counted than listed, the list of that kind has reached the limit.
+ValidationReport report_of(const py::tuple& state) {
+    auto counts = state[0].cast<std::vector<std::size_t>>();
+    const auto listed = state[1].cast<std::vector<Defect>>();
+    std::array<std::size_t, defect_kind_count> of_kind{};
+    for (const Defect& d : listed) ++of_kind[static_cast<std::size_t>(d.kind)];
+    ValidationReport report(*std::max_element(of_kind.begin(), of_kind.end()));
+    for (const Defect& d : listed) {
+        report.add(d.kind, [&] { return d; });
+        --counts[static_cast<std::size_t>(d.kind)];
+    }
+    for (std::size_t i = 0; i < defect_kind_count; ++i)
+        for (; counts[i] != 0; --counts[i])
+            report.add(static_cast<DefectKind>(i), [] { return Defect(); });
+    report.set_lattice(state[2].cast<LatticeReport>());
+    return report;
+}
+
 void bind_findings(py::module_& m) {
     py::class_<Defect>(m, "Finding", "A defect of a mesh with its place.")
         .def_property_readonly(
@@ -65,6 +106,7 @@ void bind_findings(py::module_& m) {
             "A point where it is, array of shape (3,).")
         .def_property_readonly(
             "sentence", [](const Defect& d) { return d.sentence; }, "The finding in words.")
+        .def(py::pickle(&finding_state, &finding_of))
         .def("__repr__", [](const Defect& d) {
             return "<Finding " + std::string(name_of(d.kind)) + ": " + d.sentence + ">";
         });
@@ -83,6 +125,7 @@ Counts are of all findings; of each kind at most a hundred are listed.
         .def(
             "__bool__", [](const ValidationReport& r) { return !r.empty(); },
             "Whether anything was found.")
+        .def(py::pickle(&report_state, &report_of))
         .def("__str__", [](const ValidationReport& r) { return r.to_string(); })
         .def("__repr__", [](const ValidationReport& r) {
             return "<Report: " + std::to_string(r.count(Severity::Error)) + " errors, " +

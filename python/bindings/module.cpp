@@ -22,7 +22,11 @@ PYBIND11_MODULE(_trisect, m) {
     bind_files(m);
     bind_queries(m);
     bind_interference(m);
+    bind_regions(m);
     bind_motion(m);
+    bind_enclosed(m);
+    bind_certificates(m);
     bind_scene(m);
     bind_verify(m);
+    bind_certified_mesh(m);
 }

@@ -23,6 +23,22 @@ namespace trisect::python {
 
 namespace {
 
+std::vector<ExactRational> coefficients_of(const py::handle& numbers, const char* what) {
+    std::vector<ExactRational> out;
+    for (const py::handle n : numbers) out.push_back(exact_of(n, what));
+    return out;
+}
+
+Motion rational_motion(const py::sequence& entries, const py::sequence& denominator) {
+    std::array<std::vector<ExactRational>, 12> polynomials;
+    if (entries.size() != polynomials.size())
+        throw UsageError("entries: must be 12 lists of coefficients, not " +
+                         std::to_string(entries.size()));
+    for (std::size_t i = 0; i < polynomials.size(); ++i)
+        polynomials[i] = coefficients_of(entries[i], "entries");
+    return Motion::rational(polynomials, coefficients_of(denominator, "denominator"));
+}
+
 void bind_motion_type(py::module_& m) {
     py::class_<Motion>(m, "Motion", R"(An exact rational motion: a pose for every parameter value.
 
@@ -73,6 +89,20 @@ shift : array_like, shape (3,)
                 return Motion::through(list);
             },
             py::arg("poses"), "Straight pieces from pose to pose.")
+        .def_static("joined",
+                    [](const std::vector<Motion>& motions) { return Motion::joined(motions); },
+                    py::arg("motions"), "Motions one after the other, each from the end of the last.")
+        .def_static("rational", &rational_motion, py::arg("entries"), py::arg("denominator"),
+                    R"(Any rational motion of one piece.
+
+Parameters
+----------
+entries : sequence of 12 sequences
+    Of each number of the 3 x 4 matrix, row by row, the coefficients of a polynomial in the
+    parameter, the constant first: int, float or Fraction.
+denominator : sequence
+    Coefficients of what all of them are divided by.
+)")
         .def("then", &Motion::then, py::arg("next"),
              "This motion, then one that begins at its end.")
         .def_property_readonly("piece_count", &Motion::piece_count,

@@ -9,11 +9,13 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
+#include <trisect/brep/exact_rational.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/pose.h>
 
 #include "arrays.h"
 #include "bind.h"
+#include "fractions.h"
 #include "poses.h"
 #include "run.h"
 
@@ -67,6 +69,55 @@ Pose pose_of(const py::object& pose, const char* what) {
     return from_matrix(pose, what);
 }
 
+namespace {
+
+// Rows of (M | t) / S.
+py::tuple exact_rows(const Pose& pose) {
+    const ExactRational s(pose.denominator());
+    py::tuple rows(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        py::tuple row(4);
+        for (std::size_t j = 0; j < 3; ++j)
+            row[j] = to_fraction(ExactRational(pose.matrix(i, j)) / s);
+        row[3] = to_fraction(ExactRational(pose.translation(i)) / s);
+        rows[i] = row;
+    }
+    return rows;
+}
+
+py::tuple limbs_of(const Pose::Number& number) {
+    py::tuple limbs(7);
+    for (int i = 0; i < 7; ++i) limbs[static_cast<std::size_t>(i)] = number.limb(i);
+    return limbs;
+}
+
+Pose::Number number_of(const py::handle& limbs) {
+    const auto list = limbs.cast<std::array<std::uint64_t, 7>>();
+    Pose::Number number;
+    for (int i = 0; i < 7; ++i) number.set_limb(i, list[static_cast<std::size_t>(i)]);
+    return number;
+}
+
+// Nine numbers of M, three of t, and S.
+py::tuple pose_state(const Pose& pose) {
+    py::tuple state(13);
+    for (std::size_t i = 0; i < 9; ++i) state[i] = limbs_of(pose.matrix(i / 3, i % 3));
+    for (std::size_t i = 0; i < 3; ++i) state[9 + i] = limbs_of(pose.translation(i));
+    state[12] = limbs_of(pose.denominator());
+    return state;
+}
+
+Pose pose_of_state(const py::tuple& state) {
+    if (state.size() != 13) throw UsageError("this pickle of a Pose is of another version");
+    std::array<Pose::Number, 9> m;
+    std::array<Pose::Number, 3> t;
+    for (std::size_t i = 0; i < 9; ++i) m[i] = number_of(state[i]);
+    for (std::size_t i = 0; i < 3; ++i) t[i] = number_of(state[9 + i]);
+    return Pose::from_integers(m, t, number_of(state[12]));
+}
+
+}  // namespace
+
 void bind_pose(py::module_& m) {
     py::class_<Pose>(m, "Pose", R"(An exact affine map that places a solid in the world.
 
@@ -115,6 +166,8 @@ bits : int
 )")
         .def("inverse", &Pose::inverse, "The inverse map, exactly.")
         .def("matrix", &matrix_of, "The map in doubles, array of shape (4, 4).")
+        .def("exact_matrix", &exact_rows, "The map as three rows of four Fractions.")
+        .def(py::pickle(&pose_state, &pose_of_state))
         .def_property_readonly("is_mirror", &Pose::is_mirror, "Whether orientation is turned over.")
         .def(
             "__matmul__", [](const Pose& a, const Pose& b) { return a * b; }, py::is_operator(),

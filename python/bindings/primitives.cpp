@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -9,11 +11,13 @@
 #include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/extrusion.h>
+#include <trisect/brep/primitives/hull.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 
 #include "arrays.h"
 #include "bind.h"
+#include "run.h"
 #include "solids.h"
 
 namespace trisect::python {
@@ -56,6 +60,28 @@ low, high : float
     Heights along z.
 holes : iterable of array_like, shape (n, 2)
     Inside the outline and apart from each other.
+)");
+}
+
+void bind_hull(py::class_<Solid>& c) {
+    c.def_static(
+        "hull",
+        [](const py::object& points) {
+            const auto rows = points_array(points, "points");
+            const auto count = static_cast<std::size_t>(rows.size()) / 3;
+            const std::span<const Point3d> list(reinterpret_cast<const Point3d*>(rows.data()),
+                                                count);
+            require_finite(list);
+            return solid_of_mesh(run([&] { return make_hull(list); }));
+        },
+        py::arg("points"), R"(The convex hull of points, exactly.
+
+Also what a convex solid sweeps over on a straight way: the hull of its vertices at both ends.
+
+Parameters
+----------
+points : array_like, shape (n, 3)
+    Not all in one plane.
 )");
 }
 
@@ -104,6 +130,7 @@ void bind_round(py::class_<Solid>& c) {
 void bind_primitives(py::module_& m) {
     py::class_<Solid> c = solid_class(m);
     bind_flat(c);
+    bind_hull(c);
     bind_round(c);
 }
 

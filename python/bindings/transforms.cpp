@@ -52,6 +52,16 @@ void bind_rounding(py::module_& m) {
         .def_readonly("max_move", &LatticeReport::max_move, "The largest change of a coordinate.")
         .def_readonly("flipped_faces", &LatticeReport::flipped_faces,
                       "Faces that were turned over or became flat.")
+        .def(py::pickle(
+            [](const LatticeReport& r) {
+                return py::make_tuple(r.lattice.exponent, r.lossless, r.moved, r.max_move,
+                                      r.flipped_faces);
+            },
+            [](const py::tuple& t) {
+                return LatticeReport{Lattice{t[0].cast<int>()}, t[1].cast<bool>(),
+                                     t[2].cast<std::size_t>(), t[3].cast<double>(),
+                                     t[4].cast<std::size_t>()};
+            }))
         .def("__repr__", [](const LatticeReport& r) {
             if (r.lossless) return std::string("<Rounding: none>");
             return "<Rounding: " + std::to_string(r.moved) + " vertices moved>";
