@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Validation with typed findings, and verification of results."""
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
 import trisect
+from conftest import CUBE_TRIANGLES, CUBE_VERTICES
 from trisect import DefectKind, Severity, Solid, Verdict
 
 
@@ -74,3 +78,21 @@ def test_refused_operands(two_boxes):
         trisect.verify("union", [], a)
     with pytest.raises(TypeError, match="operands: must be a pair"):
         trisect.verify("union", [3], a)
+
+
+def test_reports_and_errors_go_to_other_processes():
+    vertices, faces = CUBE_VERTICES, CUBE_TRIANGLES
+    report = trisect.check(np.concatenate([vertices, [(9, 9, 9)]]), faces[2:], list_limit=2)
+    again = pickle.loads(pickle.dumps(report))
+    assert str(again) == str(report) and again.is_solid == report.is_solid
+    assert [f.sentence for f in again.findings] == [f.sentence for f in report.findings]
+    assert [f.faces for f in again.findings] == [f.faces for f in report.findings]
+    for kind in trisect.DefectKind:
+        assert again.count(kind) == report.count(kind)
+    assert report.count(trisect.DefectKind.OPEN_EDGE) > 2
+    assert again.rounding.lossless and str(copy.copy(report)) == str(report)
+    with pytest.raises(trisect.InvalidSolid) as caught:
+        trisect.Solid(vertices, faces[1:])
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert isinstance(error, trisect.InvalidSolid) and str(error) == str(caught.value)
+    assert str(error.report) == str(caught.value.report)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Relations, distances, first contact and scenes of placed solids."""
+import copy
+import pickle
 from fractions import Fraction
 
 import numpy as np
@@ -48,6 +50,15 @@ def test_poses():
         Pose.from_quaternion((0, 0, 0, 0))
     with pytest.raises(TypeError, match="pose_b"):
         trisect.interfere(Solid(), None, Solid(), "somewhere")
+
+
+def test_poses_as_fractions_and_pickles():
+    turn = Pose.from_quaternion((2, 0, 0, 1), (0.25, 0, -1e-9))
+    (a, b, c, x), (d, *_), (*_, z) = turn.exact_matrix()
+    assert (a, b, c, d) == (Fraction(3, 5), Fraction(-4, 5), 0, Fraction(4, 5))
+    assert x == 0.25 and z == Fraction(-1e-9)
+    for pose in (Pose(), turn, turn @ turn @ turn, Pose.from_matrix(np.diag([1e-30, -1, 3e20]))):
+        assert pickle.loads(pickle.dumps(pose)) == pose and copy.deepcopy(pose) == pose
 
 
 def test_distances(cube):

@@ -249,3 +249,24 @@ def test_files(tmp_path, two_boxes):
         Solid.read(tmp_path / "missing.stl")
     with pytest.raises(trisect.UsageError, match="format"):
         part.write(tmp_path / "part.step", format="step")
+
+
+def test_hulls():
+    box = Solid.box((1, 2, 3))
+    inside = [(0.5, 0.5, 0.5), (0.5, 0, 0), (1, 2, 3)]
+    assert Solid.hull(np.concatenate([box.mesh()[0], inside])).equals(box)
+    ball = Solid.sphere(1, 2)
+    assert Solid.hull(ball.mesh()[0]).equals(ball)
+    torus = Solid.torus(2, 1, 16, 8)
+    hull = Solid.hull(torus.mesh()[0])
+    assert (torus - hull).is_empty and hull.volume > torus.volume
+    # What a box sweeps over.
+    corners = box.mesh()[0]
+    swept = Solid.hull(np.concatenate([corners, corners + (4, 0, 0)]))
+    assert swept.equals(Solid.box((5, 2, 3)))
+    with pytest.raises(trisect.UsageError, match="not in one plane"):
+        Solid.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)])
+    with pytest.raises(trisect.UsageError, match="vertex 1 .*finite"):
+        Solid.hull([(0, 0, 0), (np.nan, 0, 0), (0, 1, 0), (1, 1, 1)])
+    with pytest.raises(trisect.UsageError, match="points: must have the shape"):
+        Solid.hull([(0, 0), (1, 1)])
