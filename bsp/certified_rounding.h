@@ -20,7 +20,7 @@ struct RoundingOptions {
     /// How often intersections may be resolved and rounded again.
     std::size_t max_rounds = 12;
     /// Limits and threads of each resolution.
-    EvaluateOptions evaluate;
+    EvaluateOptions evaluate = {};
 };
 
 /// What it took. Nothing is moved in silence: `radius` bounds what the set lost and gained.

@@ -71,10 +71,10 @@ enum class BooleanOperation : std::uint8_t { Union, Intersection, Difference, Sy
 struct VerifyOptions {
     /// The distance r of the question "equal within r?", in the user's units. Without it the
     /// question is "equal?", and for different sets the smallest r is looked for.
-    std::optional<double> within;
+    std::optional<double> within = std::nullopt;
     /// Of all meshes. Default: see "Placement".
-    std::optional<Lattice> lattice;
-    EvaluateOptions evaluate;
+    std::optional<Lattice> lattice = std::nullopt;
+    EvaluateOptions evaluate = {};
     /// Pieces that D may be cut into.
     std::size_t piece_limit = 10000;
 };

@@ -41,8 +41,8 @@ class StopAttendant {
 public:
     virtual ~StopAttendant() = default;
     /// False stops as a flag does. Asked at every eighth look of the thread, which may be some
-    /// hundred nanoseconds or some milliseconds later. Work on other threads goes on meanwhile: set
-    /// a flag as well to stop that soon.
+    /// hundred nanoseconds or some milliseconds later, and after each long step. Work on other
+    /// threads goes on meanwhile: set a flag as well to stop that soon.
     /// \param holds_locks  whether the thread is within something that other calls may wait for:
     /// what is done here must then not call the library, nor wait for another thread that does
     [[nodiscard]] virtual bool goes_on(bool holds_locks) noexcept = 0;
@@ -89,10 +89,16 @@ public:
     void add(std::uint64_t units) {
         count(units);
         for (const StopScope* s = this; s != nullptr; s = s->outer_) {
-            if (s->is_stopped()) throw CancelledError();
+            if (s->is_stopped(units >= long_step)) throw CancelledError();
             if (s->limits_.max_work != 0 && s->work_ > s->limits_.max_work)
                 throw_spent(s->limits_.max_work);
         }
+    }
+    /// After a long step: looks at the flags, and asks attendants at once. Counts nothing.
+    /// \throw CancelledError
+    void end_step() const {
+        for (const StopScope* s = this; s != nullptr; s = s->outer_)
+            if (s->is_stopped(true)) throw CancelledError();
     }
     /// Looks at the flags of this scope and those around it; other threads may call it, too, and
     /// ask no attendant.
@@ -132,14 +138,18 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_stopped() const {
+    /// Units of work after which an attendant need not wait for its eighth look.
+    static constexpr std::uint64_t long_step = 4096;
+
+    [[nodiscard]] bool is_stopped(bool after_long_step = false) const {
         if (limits_.cancel != nullptr && limits_.cancel->load(std::memory_order_relaxed))
             return true;
-        return limits_.attendant != nullptr && !attendant_goes_on();
+        return limits_.attendant != nullptr && !attendant_goes_on(after_long_step);
     }
-    [[nodiscard]] bool attendant_goes_on() const {
+    [[nodiscard]] bool attendant_goes_on(bool after_long_step) const {
         if (owner_ != &detail::stop_scope_of_thread) return true;  // another thread
-        return ++looks_ % 8 != 0 || limits_.attendant->goes_on(detail::locks_of_thread > 0);
+        const bool is_due = ++looks_ % 8 == 0 || after_long_step;
+        return !is_due || limits_.attendant->goes_on(detail::locks_of_thread > 0);
     }
 
     StopScope* outer_;
@@ -156,6 +166,12 @@ namespace detail {
 /// no scope. \throw CancelledError, LimitError
 inline void check_stop(std::uint64_t units = 1) {
     if (stop_scope_of_thread != nullptr) stop_scope_of_thread->add(units);
+}
+
+/// To be called after a step that takes milliseconds and looked at nothing on its way.
+/// \throw CancelledError
+inline void end_step() {
+    if (stop_scope_of_thread != nullptr) stop_scope_of_thread->end_step();
 }
 
 /// \throw CancelledError when a flag of the scope is set; null has none.

@@ -74,6 +74,7 @@ private:
     void weld_and_triangulate() {
         detail::check_stop(lattice_points_.size());
         mesh_ = detail::weld_mesh(input_, lattice_points_);
+        detail::end_step();
         detail::triangulate_faces(mesh_);
         out_.report.welded_points = mesh_.welded_points;
         out_.report.nonplanar_faces = mesh_.nonplanar_faces.size();
@@ -137,6 +138,7 @@ private:
     void check_closed() {
         const auto edges =
             detail::find_net_edges(mesh_.points.size(), mesh_.loop_begin, mesh_.corners);
+        detail::end_step();
         detail::check_stop(edges.size());
         const auto open = detail::find_uncancelled(mesh_.points, edges);
         for (std::size_t i = 0; i < edges.size(); ++i) {

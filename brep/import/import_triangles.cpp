@@ -152,8 +152,10 @@ public:
         check_stop(input_.triangles.size());
         const SideBalance sides = connect();
         check_stop();
+        end_step();
         if (!sides.cancel) return std::nullopt;
         out_.report.inside_out = is_inside_out();
+        end_step();
         drop_degenerate();
         if (!sides.reach_all_points || out_.report.degenerate_faces_dropped != 0)
             drop_unused_points();

@@ -35,6 +35,7 @@ std::optional<ManifoldMesh> ManifoldMesh::of(std::span<const LatticePoint> point
     if (triangles.empty()) return std::nullopt;
     check_stop(triangles.size());
     auto twins = Twins::of(points.size(), triangles);
+    end_step();
     if (!twins) return std::nullopt;
     return ManifoldMesh(points, triangles, std::move(*twins));
 }
@@ -45,6 +46,7 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
     std::vector<std::vector<Triangle>> own(shells.count);
     for (std::size_t t = 0; t < triangles_.size(); ++t)
         own[shells.of_triangle[t]].push_back(triangles_[t]);
+    end_step();
     const std::vector<bool> is_closed(shells.count, true);
     TriangleTree tree(points_, triangles_, shells.of_triangle);
     ShellNesting nesting(points_, triangles_, shells.of_triangle, is_closed, tree);
@@ -60,6 +62,7 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
 std::optional<bool> ManifoldMesh::has_no_contact() const {
     const auto sheets = find_sheets(points_, triangles_, twins_);
     if (!sheets) return std::nullopt;
+    end_step();
     std::vector<Triangle> near;
     std::vector<std::uint32_t> sheet_of;
     for (const std::uint32_t t : triangles_near_others(points_, triangles_, *sheets)) {
@@ -71,6 +74,7 @@ std::optional<bool> ManifoldMesh::has_no_contact() const {
         return find_contact(points_, a, b).kind == ContactKind::None ? Found::Nothing
                                                                      : Found::Contact;
     };
+    end_step();
     TriangleTree tree(points_, near, sheet_of);
     Found found = Found::Nothing;
     std::uint64_t pairs = 0;

@@ -166,6 +166,7 @@ Views choose_views(std::span<const LatticePoint> points, std::span<const Triangl
     }
     check_stop(triangles.size());
     Hubs(points.size(), triangles).turn(triangles, normals, views.of_triangle);
+    end_step();
     return views;
 }
 
@@ -221,6 +222,7 @@ public:
 
     std::vector<std::uint32_t> run() {
         hang_together();
+        end_step();
         number_sheets();
         collect_outlines();
         prove();

@@ -48,7 +48,9 @@ TriangleTree::TriangleTree(std::span<const LatticePoint> points,
         for (const std::uint32_t c : triangles[t]) boxes_[t].add(points[c]);
     if (triangles.empty()) return;
     order_.reserve(triangles.size());
+    end_step();
     Grouped grouped = group(sheets);
+    end_step();
     divide(grouped.items, grouped.triangles);
 }
 

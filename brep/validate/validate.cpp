@@ -45,6 +45,7 @@ ValidationReport run_checks(const CheckedMesh& m, const ValidateOptions& options
     for (const auto check : {detail::check_duplicate_points, detail::check_unused_points,
                              detail::check_shells, detail::check_emptiness}) {
         detail::check_stop();
+        detail::end_step();
         check(m, report);
     }
     report.sort();
@@ -54,10 +55,13 @@ ValidationReport run_checks(const CheckedMesh& m, const ValidateOptions& options
 ValidationReport validate_on_lattice(const PolygonMesh& mesh, const LatticeReport& lattice,
                                      std::span<const LatticePoint> points,
                                      const ValidateOptions& options) {
+    detail::end_step();
     PreparedMesh prepared = detail::weld_mesh(mesh, points);
     prepared.report = lattice;
+    detail::end_step();
     detail::triangulate_faces(prepared);
     CheckedMesh checked(std::move(prepared));
+    detail::end_step();
     find_odd_points(checked, points.size(), mesh.corners, points);
     return run_checks(checked, options);
 }

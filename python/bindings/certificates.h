@@ -35,8 +35,11 @@ template <class C, class Placement, class Find>
 HeldCertificate<C, Placement> held(const Solid& a, Placement placement_a, const Solid& b,
                                    Placement placement_b, const Find& find) {
     return run([&] {
-        HeldCertificate<C, Placement> made{{}, InterferenceModel(a), InterferenceModel(b),
-                                           std::move(placement_a), std::move(placement_b)};
+        HeldCertificate<C, Placement> made{{},
+                                           InterferenceModel(a),
+                                           InterferenceModel(b),
+                                           std::move(placement_a),
+                                           std::move(placement_b)};
         made.certificate = find(made.a, made.placement_a, made.b, made.placement_b);
         return made;
     });

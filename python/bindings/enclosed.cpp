@@ -94,8 +94,9 @@ std::vector<KeyFrame> frames_of(const py::object& times, const py::object& rotat
 }
 
 void bind_enclosed_motion_type(py::module_& m) {
-    py::class_<EnclosedMotion>(m, "EnclosedMotion",
-                               R"(A motion over time that is enclosed by rational ones, with a proof.
+    py::class_<EnclosedMotion>(
+        m, "EnclosedMotion",
+        R"(A motion over time that is enclosed by rational ones, with a proof.
 
 For turns of constant speed, key frames and functions, which no rational formula describes. The motion
 is the real one: a turn by two radians is that, not a polygon.
@@ -169,7 +170,8 @@ breaks : sequence of float
 error : float
     Every number that ``pose`` returns is within this of the motion's.
 )")
-        .def_property_readonly("duration", &EnclosedMotion::duration, "The time runs from 0 to this.")
+        .def_property_readonly("duration", &EnclosedMotion::duration,
+                               "The time runs from 0 to this.")
         .def("__repr__", [](const EnclosedMotion& motion) {
             return "<trisect.EnclosedMotion: duration " +
                    std::string(py::repr(py::float_(motion.duration()))) + ">";
@@ -192,11 +194,12 @@ std::string contact_text(const NamedEnclosedContact& c) {
 
 void bind_enclosed_contact_type(py::module_& m) {
     bind_enum(m, "ContactOutcome", "What `enclosed_first_contact` proved.",
-              std::vector<EnumMember>{{"NONE", static_cast<int>(EnclosedContact::Outcome::None)},
-                                      {"CONTACT", static_cast<int>(EnclosedContact::Outcome::Contact)},
-                                      {"UNDECIDED", static_cast<int>(EnclosedContact::Outcome::Undecided)}});
-    py::class_<NamedEnclosedContact>(m, "EnclosedContact",
-                                     "The first contact of enclosed motions, as an interval of time.")
+              std::vector<EnumMember>{
+                  {"NONE", static_cast<int>(EnclosedContact::Outcome::None)},
+                  {"CONTACT", static_cast<int>(EnclosedContact::Outcome::Contact)},
+                  {"UNDECIDED", static_cast<int>(EnclosedContact::Outcome::Undecided)}});
+    py::class_<NamedEnclosedContact>(
+        m, "EnclosedContact", "The first contact of enclosed motions, as an interval of time.")
         .def_property_readonly(
             "outcome",
             [](const NamedEnclosedContact& c) { return enum_member("ContactOutcome", c.outcome); },

@@ -89,9 +89,9 @@ shift : array_like, shape (3,)
                 return Motion::through(list);
             },
             py::arg("poses"), "Straight pieces from pose to pose.")
-        .def_static("joined",
-                    [](const std::vector<Motion>& motions) { return Motion::joined(motions); },
-                    py::arg("motions"), "Motions one after the other, each from the end of the last.")
+        .def_static(
+            "joined", [](const std::vector<Motion>& motions) { return Motion::joined(motions); },
+            py::arg("motions"), "Motions one after the other, each from the end of the last.")
         .def_static("rational", &rational_motion, py::arg("entries"), py::arg("denominator"),
                     R"(Any rational motion of one piece.
 

@@ -193,12 +193,12 @@ time of contact, deeper than the enclosures deviate.
            const EnclosedMotion& motion_b, double width, std::size_t max_nodes) {
             EnclosedContactOptions options;
             options.width = width;
-            return held<EnclosedCertificate>(
-                a, motion_a, b, motion_b,
-                [&](const auto& x, const EnclosedMotion& p, const auto& y,
-                    const EnclosedMotion& q) {
-                    return certify_enclosed_contact(x, p, y, q, options, max_nodes);
-                });
+            return held<EnclosedCertificate>(a, motion_a, b, motion_b,
+                                             [&](const auto& x, const EnclosedMotion& p,
+                                                 const auto& y, const EnclosedMotion& q) {
+                                                 return certify_enclosed_contact(
+                                                     x, p, y, q, options, max_nodes);
+                                             });
         },
         py::arg("a"), py::arg("motion_a"), py::arg("b"), py::arg("motion_b"), py::kw_only(),
         py::arg("width") = 1e-9, py::arg("max_nodes") = 200000,

@@ -103,8 +103,7 @@ Corners of solids are multiples of powers of two; a rotation by a fraction needs
             "exact_volume", [](const Overlap& o) { return to_fraction(o.volume); },
             "The same as a Fraction; exact for what `solid` is.")
         .def("__repr__", [](const Overlap& o) {
-            return "<Overlap: volume " +
-                   std::string(py::repr(py::float_(o.volume.to_double()))) +
+            return "<Overlap: volume " + std::string(py::repr(py::float_(o.volume.to_double()))) +
                    (o.is_exact ? ", exact>" : ", corners rounded>");
         });
 }
