@@ -214,6 +214,41 @@ TEST(Stop, AnAttendantIsAskedAtEveryEighthLook) {
     EXPECT_EQ(patience.asked(), 4U);
 }
 
+TEST(Stop, AnAttendantIsAskedAfterLongSteps) {
+    Patience patience(2);
+    const StopScope scope({.attendant = &patience});
+    trisect::detail::check_stop(1'000'000);
+    trisect::detail::end_step();
+    EXPECT_EQ(patience.asked(), 2U);
+    EXPECT_THROW(trisect::detail::end_step(), trisect::CancelledError);
+}
+
+// Import looks a few times only, after all of a large mesh.
+TEST(Stop, AnAttendantStopsImportAndValidation) {
+    const PolygonMesh mesh = trisect::make_icosphere(1, 5);
+    const auto import_as = [&](trisect::Embedding embedding) {
+        return Solid::from_mesh(mesh, {.embedding = embedding});
+    };
+    const std::function<void()> calls[] = {
+        [&] { (void)import_as(trisect::Embedding::Assume); },
+        [&] { (void)import_as(trisect::Embedding::Check); },
+        [&] { (void)import_as(trisect::Embedding::Resolve); },
+        [&] { (void)validate(mesh); }};
+    for (const auto& call : calls) {
+        Patience endless(~std::uint64_t{0});
+        {
+            const StopScope scope({.attendant = &endless});
+            call();
+        }
+        EXPECT_GE(endless.asked(), 3U);
+        for (std::uint64_t times = 0; times < endless.asked(); times += 1 + times / 4) {
+            Patience patience(times);
+            const StopScope scope({.attendant = &patience});
+            EXPECT_THROW(call(), trisect::CancelledError);
+        }
+    }
+}
+
 TEST(Stop, AnAttendantStopsEvaluation) {
     const Solid ball = Solid::from_mesh(trisect::make_icosphere(1, 4));
     const Solid part = cut_ball();
