@@ -94,7 +94,7 @@ public:
                 throw_spent(s->limits_.max_work);
         }
     }
-    /// After a long step: looks at the flags, and asks attendants at once. Counts nothing.
+    /// After a long step: looks at the flags and at attendants, at once. Counts nothing.
     /// \throw CancelledError
     void end_step() const {
         for (const StopScope* s = this; s != nullptr; s = s->outer_)

@@ -2,8 +2,6 @@
 //
 // Divides a solid into convex parts, and proves that a decomposition is one.
 //
-//     convex_parts [part.off]
-//
 // Physics engines take convex parts. Whether parts that some program made are convex, do not
 // overlap, and fill the whole: each of these is a question with an exact answer.
 
@@ -110,10 +108,8 @@ Solid profile() {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    const Solid solid = argc > 1
-                            ? Solid::from_mesh(read_mesh(argv[1]), {.embedding = Embedding::Check})
-                            : profile();
+int main() {
+    const Solid solid = profile();
     std::vector<Solid> parts = convex_parts(solid);
     expect(!wrong(solid, parts), "a decomposition");
     ExactRational sum;

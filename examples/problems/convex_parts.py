@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Divides a solid into convex parts, and proves that a decomposition is one.
 
-    python3 convex_parts.py [part.off]
-
 Physics engines take convex parts. Whether parts that some program made are convex, do not overlap,
 and fill the whole: each of these is a question with an exact answer.
 """
-import sys
-
 import numpy as np
 
 import trisect
@@ -64,8 +60,6 @@ def wrong(solid, parts):
 # A U-profile with a window and a foot, on a grid, so that parts have corners that are doubles.
 solid = Solid.box((8, 6, 6)) - Solid.box((2, -1, 2), (6, 7, 7)) - Solid.box((-1, 2, 3), (9, 4, 5))
 solid = solid | Solid.extrude([(8, 0), (12, 0), (8, 4)], 0, 6)
-if len(sys.argv) > 1:
-    solid = Solid.read(sys.argv[1])
 
 parts = convex_parts(solid)
 assert wrong(solid, parts) is None

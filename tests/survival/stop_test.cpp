@@ -229,11 +229,10 @@ TEST(Stop, AnAttendantStopsImportAndValidation) {
     const auto import_as = [&](trisect::Embedding embedding) {
         return Solid::from_mesh(mesh, {.embedding = embedding});
     };
-    const std::function<void()> calls[] = {
-        [&] { (void)import_as(trisect::Embedding::Assume); },
-        [&] { (void)import_as(trisect::Embedding::Check); },
-        [&] { (void)import_as(trisect::Embedding::Resolve); },
-        [&] { (void)validate(mesh); }};
+    const std::function<void()> calls[] = {[&] { (void)import_as(trisect::Embedding::Assume); },
+                                           [&] { (void)import_as(trisect::Embedding::Check); },
+                                           [&] { (void)import_as(trisect::Embedding::Resolve); },
+                                           [&] { (void)validate(mesh); }};
     for (const auto& call : calls) {
         Patience endless(~std::uint64_t{0});
         {
