@@ -38,8 +38,8 @@ struct InterferenceModelStats {
 /// Poses are applied to the solid, never to the model: nothing in it ever moves.
 ///
 /// Solids answer the same questions without one, by the tree that they have
-/// (solid_interference.h). A model is for those who want entities of a B-rep, certificates, or very
-/// many questions about a solid that stays as it is: these are faster then.
+/// (solid_interference.h). A model gives entities of a B-rep and certificates, and many questions
+/// about a solid that stays as it is are faster by one.
 ///
 /// Immutable value; copying shares. Safe to use from many threads. The empty solid is allowed: it
 /// is disjoint from everything, and a model that was moved from is that of the empty solid. Cost:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LazyModel: what the copies of an InterferenceModel share.
+// LazyModel: a solid and, from when they are needed, its B-rep and model data.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace trisect::detail {
 
 struct InterferenceModelData;
 
-/// A solid; its B-rep, and what questions between models need, from when they are first needed.
+/// Copies of an InterferenceModel share it. The B-rep is made first, then what questions need.
 /// Threads may share it: one makes them, others wait.
 class LazyModel {
 public:
