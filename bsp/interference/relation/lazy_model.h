@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LazyModel: a solid and, from when they are needed, its B-rep and model data.
+// LazyModel: a solid with its B-rep, made when first needed.
 #pragma once
 
 #include <memory>
