@@ -4,7 +4,7 @@
 // results. A cut costs what changes; this is about whether queries do, too.
 //
 //     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined] [--interference]
-//                   [--small-holder] [--rebuild N] [--models] [--bytes] [--count N]
+//                   [--small-holder] [--rebuild N] [--models] [--bytes] [--memory] [--count N]
 //
 // --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
 // cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
@@ -16,6 +16,8 @@
 // it; with --models an InterferenceModel, too.
 // --bytes: of facts that each version adds. Walks through the whole tree after each cut, so times
 // are longer.
+// --memory: of the last version alone, and of its mesh as a fresh solid: refined, and after all
+// the same questions.
 // --count: under callgrind, the instructions of so many cuts after the fifth and of the last ones;
 // see scripts/count-chain-instructions.
 
@@ -39,6 +41,7 @@
 
 #include "chain_cuts.h"
 #include "chain_facts.h"
+#include "chain_memory.h"
 #include "chain_rebuild.h"
 #include "chain_series.h"
 
@@ -62,6 +65,7 @@ struct Options {
     bool interference = false;
     bool models = false;
     bool bytes = false;
+    bool memory = false;
     bool small_holder = false;
 };
 
@@ -90,6 +94,8 @@ Options parsed(int argc, char** argv) {
             o.models = true;
         } else if (arg == "--bytes") {
             o.bytes = true;
+        } else if (arg == "--memory") {
+            o.memory = true;
         } else if (arg == "--small-holder") {
             o.small_holder = true;
         } else {
@@ -144,6 +150,7 @@ public:
             s->print();
         rebuild_.print();
         print_bytes();
+        if (options_.memory) compare_memory();
     }
 
 private:
@@ -170,6 +177,7 @@ private:
 
     void step(int i) {
         const Point3d at = cuts_.place(i);
+        if (options_.memory) places_.push_back(at);
         const PolygonMesh tool = cuts_.ball_at(at);
         cut_.add(counters_, [&] {
             stock_ = evaluate(Expression(stock_) - Expression(solid_of(tool)), one_thread());
@@ -242,6 +250,37 @@ private:
         for (int again = 0; again < 8; ++again) best = std::min(best, milliseconds_of(work));
         return 1000 * best / static_cast<double>(points);
     }
+    void compare_memory() {
+        query_.reset();
+        facts_.reset();
+        const PolygonMesh mesh = stock_.to_mesh(1);
+        const std::size_t version = heap_of(stock_);
+        const std::size_t before = heap_in_use();
+        stock_ = solid_of(mesh);
+        stock_.refine();
+        (void)BrepIndex(stock_);
+        const std::size_t fresh = heap_in_use() - before;
+        for (const Point3d& at : places_) {
+            const ChainQuestions q = questions_at(at);
+            const BrepIndex index(stock_);
+            sum_ += static_cast<std::size_t>(index.locate(q.near).location);
+            sum_ += index.first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
+            sum_ += index.distance(q.above) ? 1 : 0;
+            if (!options_.interference) continue;
+            const Pose pose = Pose::from_translation(q.holder);
+            sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, pose).relation);
+            for (const Point3d& p : {q.holder, q.aside}) {
+                const Pose there = Pose::from_translation(p);
+                sum_ += boundary_distance(stock_, Pose(), holder_, there) ? 1 : 0;
+            }
+        }
+        const std::size_t asked = heap_in_use() - before;
+        std::printf(
+            "\nthe last version %.1f MB, its mesh as a fresh solid %.1f, after all questions "
+            "%.1f\n",
+            1e-6 * static_cast<double>(version), 1e-6 * static_cast<double>(fresh),
+            1e-6 * static_cast<double>(asked));
+    }
     void print_bytes() const {
         if (added_.empty()) return;
         double sum = 0;
@@ -259,6 +298,7 @@ private:
     ChainRebuild rebuild_;
     std::optional<ChainFacts> facts_;
     std::vector<double> added_;
+    std::vector<Point3d> places_;
     std::size_t sum_ = 0;
     Series cut_{"the cut"};
     Series index_{"BrepIndex"};

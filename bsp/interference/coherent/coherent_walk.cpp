@@ -51,9 +51,7 @@ namespace trisect::detail {
 namespace {
 
 constexpr float infinite_float = std::numeric_limits<float>::infinity();
-// A step of this part of the larger body's radius ends a front. What was open keeps its visits
-// until it is apart by twice the step: after a leap those of the old place would stay, and with
-// them all that is tested from then on.
+// A step of this part of the larger body's radius is a leap.
 constexpr double leap = 0.125;
 
 float size(const ObbTree& t, ObbId id) {
@@ -204,6 +202,25 @@ CoherentWalk::Answer CoherentWalk::search_from_witness() {
     witness_.reset();
     front_pose_.reset();
     return answer();
+}
+
+// After a leap, and at first. A front would take several times as long to make, and is worth it if
+// the next question is about a place nearby. One from before a leap does not help: what was open
+// keeps its visits until it is apart by twice the step, so those of the old place would stay.
+bool CoherentWalk::is_elsewhere() const {
+    if (!last_pose_) return true;
+    const double larger =
+        std::max(a_->boxes.radius, static_cast<double>(pose_->scale()) * b_->boxes.radius);
+    return pose_->displacement_from(*last_pose_) > leap * larger;
+}
+
+// Keeps no front.
+CoherentWalk::Answer CoherentWalk::place() {
+    ++fresh_;
+    front_pose_.reset();
+    stack_.clear();
+    stack_.push_back(ObbWalk::Pair{});
+    return cross_below_stack() ? Answer::Crossing : answer();
 }
 
 // The front ----------------------------------------------------------------------------------
@@ -431,9 +448,6 @@ CoherentWalk::Answer CoherentWalk::make_front() {
 CoherentWalk::Answer CoherentWalk::renew_front() {
     unknown_ = 0;
     step_ = pose_->displacement_from(*front_pose_);
-    if (step_ >
-        leap * std::max(a_->boxes.radius, static_cast<double>(pose_->scale()) * b_->boxes.radius))
-        return make_front();
     odometer_ = (odometer_ + step_) * (1 + 0x1p-52);
     turn_ = (turn_ + pose_->turn_from(*front_pose_)) * (1 + 0x1p-52);
     if (!(turn_ <= PlanePose::most_turn * static_cast<double>(pose_->scale()))) {
@@ -528,6 +542,8 @@ CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
         if (leaves_cross(witness_->a, witness_->b)) return crossing_answer();
     }
     pose_.emplace(a_->boxes, b_->boxes, b_to_a);
+    const bool elsewhere = is_elsewhere();
+    last_pose_ = pose_;
     if (pose_->clearance() > 0) {
         far_ = true;
         witness_.reset();
@@ -539,7 +555,7 @@ CoherentWalk::Answer CoherentWalk::ask(const ApproximateMap& b_to_a) {
         found = search_from_witness();
     } else {
         last_from_front_ = continues;
-        found = front_pose_ ? renew_front() : make_front();
+        found = elsewhere ? place() : front_pose_ ? renew_front() : make_front();
     }
     last_from_front_ = found != Answer::Crossing && front_pose_;
     if (found == Answer::Crossing) return crossing_answer();
@@ -585,6 +601,7 @@ void CoherentWalk::forget_changed(const ChangedBoxes& changed, ObbId Visit::*box
 
 void CoherentWalk::forget() {
     witness_.reset();
+    last_pose_.reset();
     front_pose_.reset();
     last_from_front_ = false;
 }

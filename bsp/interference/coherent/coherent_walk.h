@@ -88,6 +88,9 @@ private:
     void find_way_to(ObbWalk::Pair leaves);
     Answer search_from_witness();
 
+    [[nodiscard]] bool is_elsewhere() const;
+    Answer place();
+
     // The front.
     std::uint32_t add_visit(ObbId a, ObbId b, std::uint32_t parent, double slack);
     void remove(std::uint32_t v);
@@ -112,6 +115,7 @@ private:
     const Boundary* b_;
     ApproximateMap map_;
     std::optional<ObbPose> pose_;
+    std::optional<ObbPose> last_pose_;  // of the question before
     double error_ = 0;
     std::uint64_t unknown_ = 0;  // pairs of triangles in this question
 
