@@ -37,7 +37,13 @@ Pose from_matrix(const py::object& matrix, const char* what) {
     const AffineMap map = affine_map_of(matrix, what);
     std::array<double, 12> rows{};
     for (std::size_t i = 0; i < 12; ++i) rows[i] = map.rows[i / 4][i % 4];
-    return Pose::from_doubles(rows);
+    try {
+        return Pose::from_doubles(rows);
+    } catch (const UsageError& error) {
+        throw UsageError(std::string(what) + ": " + error.what());
+    } catch (const LimitError& error) {
+        throw LimitError(std::string(what) + ": " + error.what());
+    }
 }
 
 }  // namespace

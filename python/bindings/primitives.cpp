@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -72,7 +73,11 @@ void bind_hull(py::class_<Solid>& c) {
             const std::span<const Point3d> list(reinterpret_cast<const Point3d*>(rows.data()),
                                                 count);
             require_finite(list);
-            return solid_of_mesh(run([&] { return make_hull(list); }));
+            try {
+                return solid_of_mesh(run([&] { return make_hull(list); }));
+            } catch (const UsageError& error) {
+                throw UsageError(std::string("points: ") + error.what());
+            }
         },
         py::arg("points"), R"(The convex hull of points, exactly.
 

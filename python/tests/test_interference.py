@@ -48,6 +48,10 @@ def test_poses():
         Pose.from_matrix(np.eye(5))
     with pytest.raises(trisect.UsageError):
         Pose.from_quaternion((0, 0, 0, 0))
+    with pytest.raises(trisect.UsageError, match="pose_a: .*singular"):
+        trisect.interfere(Solid(), np.zeros((3, 4)), Solid(), None)
+    with pytest.raises(trisect.UsageError, match="map: must have the shape"):
+        Solid.box((1, 1, 1)).transform(np.eye(5))
     with pytest.raises(TypeError, match="pose_b"):
         trisect.interfere(Solid(), None, Solid(), "somewhere")
 
