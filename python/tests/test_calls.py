@@ -159,6 +159,22 @@ def test_progress_is_reported_and_stops(many):
         trisect.limits(progress=3)
 
 
+@pytest.mark.parametrize("call", [
+    lambda v, f: Solid(v, f, embedding="check"),
+    lambda v, f: trisect.check(v, f),
+    lambda v, f: Solid(v, f, embedding="resolve").volume,
+])
+def test_import_and_checks_of_large_meshes_stop(call):
+    vertices, faces = Solid.uv_sphere(1, 400, 401).mesh()
+
+    def fail(seconds, steps):
+        raise ZeroDivisionError("from progress")
+
+    with trisect.limits(threads=1, progress=fail):
+        with pytest.raises(ZeroDivisionError, match="from progress"):
+            call(vertices, faces)
+
+
 def test_progress_may_call_the_library(many, cube):
     volumes = []
 
