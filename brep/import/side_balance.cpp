@@ -130,8 +130,10 @@ public:
         std::vector<std::uint32_t> unclear;
         list_unclear(rows_.get(), counts_.data(), counts_.size(), unclear);
         std::ranges::sort(late_, {}, &LateEnds::vertex);
-        // Those with late ends: their rows may be clear by themselves.
-        for (const LateEnds& l : late_) unclear.push_back(l.vertex);
+        // Those with late ends, once each: their rows may be clear by themselves.
+        for (std::size_t i = 0; i < late_.size(); ++i)
+            if (i == 0 || late_[i].vertex != late_[i - 1].vertex)
+                unclear.push_back(late_[i].vertex);
         net_.resize(unclear.empty() ? 0 : counts_.size());
         return std::ranges::all_of(unclear, [this](std::uint32_t v) { return cancel_at(v); });
     }
