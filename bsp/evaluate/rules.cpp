@@ -153,7 +153,7 @@ bool may_be_divided(const CellView& view) { return !view.undividable; }
 
 bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solids,
                           const EvaluateSettings& options) {
-    return are_two_large_meshes(formula, solids, options);
+    return are_two_meshes(formula, solids, options);
 }
 
 // --- The table.
@@ -173,15 +173,15 @@ constexpr std::size_t formula_rows = 3;
 constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
+    Rule{"two meshes",
+         "∪, ∩ or − of two imported meshes of a size, 64 facets each, without an index; no work "
+         "limit",
+         "uncrossed facets, crossings", &Stats::filtered_leaves,
+         FormulaRule{&are_meshes_of_a_size, &evaluate_without_tree}},
     Rule{"outlines of prisms",
          "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
          "whole facets, outlines by name", &Stats::prism_leaves,
          FormulaRule{&are_large_prisms, &outline_prisms}},
-    Rule{"two meshes",
-         "∪, ∩ or − of two imported meshes of a size, 1,024 facets each, without an index; no work "
-         "limit",
-         "uncrossed facets, crossings", &Stats::filtered_leaves,
-         FormulaRule{&are_meshes_of_a_size, &evaluate_without_tree}},
     Rule{"half-spaces",
          "∩ or − of one imported mesh and half-spaces, or what complements make of it; parallel "
          "planes, none through a corner; no work limit",

@@ -77,6 +77,10 @@ ShapeRows all_that_meet(const CubeGrid& grid, const CubeSet& cubes) {
     return begins;
 }
 
+// Rows that facets over more than two slabs may have in all. A grid of four slabs, with two more
+// around them, has so many for each.
+std::size_t most_rows(std::size_t facets) { return 36 * facets + 4096; }
+
 }  // namespace
 
 OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
@@ -111,15 +115,15 @@ bool OccupiedCubes::mark_facets() {
         }
         rows[shape * of_shape + grid.row(range.lo)] |= std::uint64_t{1} << CubeGrid::x(range.lo);
     }
+    std::size_t rows_of_large = 0;
+    for (const std::uint32_t f : large) rows_of_large += range_of(f).row_count();
+    if (rows_of_large > most_rows(triangles_.size())) return false;
     occupied_ = all_met(std::move(begins));
-    std::size_t rows_left = 16 * triangles_.size() + 4096;
-    for (const std::uint32_t f : large) {
-        const bool few = range_of(f).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
+    for (const std::uint32_t f : large)
+        range_of(f).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
             occupied_.row(row) |= bits;
-            return --rows_left != 0;
+            return true;
         });
-        if (!few) return false;
-    }
     return true;
 }
 

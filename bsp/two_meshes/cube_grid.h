@@ -113,6 +113,10 @@ struct CubeRange {
         const CubeGrid::Cube d = hi - lo;  // no byte borrows
         return (d & 0xfefefe) != 0 ? large : (d & 1) | (d >> 7 & 2) | (d >> 14 & 4);
     }
+    /// Rows along x.
+    [[nodiscard]] std::size_t row_count() const {
+        return (CubeGrid::y(hi) - CubeGrid::y(lo) + 1) * (CubeGrid::z(hi) - CubeGrid::z(lo) + 1);
+    }
     /// Calls visit(row, bits) for the rows of the range until that is false; returns whether it
     /// never was.
     template <class Visit>
@@ -131,7 +135,8 @@ class OccupiedCubes {
 public:
     OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh);
 
-    /// False when facets are so large that nothing is gained; then the rest is not there.
+    /// False when facets meet so many cubes that larger ones are better; then the rest is not
+    /// there. Those of a grid of four slabs always are.
     [[nodiscard]] bool is_useful() const { return is_useful_; }
     [[nodiscard]] const CubeSet& cubes() const { return occupied_; }
     /// Where a point of the mesh is.

@@ -19,6 +19,8 @@
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
+#include <trisect/bsp/two_meshes/facet_clip.h>
+#include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
@@ -30,6 +32,9 @@ namespace {
 
 class PairFinder;
 
+constexpr std::uint64_t many_pairs = 20'000;
+constexpr std::uint64_t many_pairs_of_plane = 100;
+
 // What the threads of one search share.
 struct SharedSearch {
     const EvaluateSettings& options;
@@ -37,9 +42,12 @@ struct SharedSearch {
     MemoryBudget& memory;
     bool parallel;
     bool recognises_equal;
-    bool decides;                           // doubtful pairs
+    bool decides;  // doubtful pairs
+    Frame frame;
+    std::array<FacetClip, 2> clips;
     std::atomic<bool> has_equal{false};     // all may stop
     std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
+    std::atomic<bool> is_hopeless{false};   // there is no direction as wanted: all may stop
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();
@@ -54,9 +62,7 @@ public:
 
     void run(const std::array<const CellNode*, 2>& meshes, const TwoLists& facets) {
         CellTask task;
-        Box all;
-        for (const CellNode* m : meshes) all.add(m->polygons().whole_source()->box());
-        task.frame = Frame::covering(all);
+        task.frame = search_.frame;
         task.has_frame = true;
         std::array<CellOperand, 2> operands;
         const auto held =
@@ -84,11 +90,27 @@ private:
     void solve(CellTask& task);
     void divide(const CellTask& task, const SplittingPlane& splitter);
     void compare(const CellTask& task);
+    void draw_in_boxes(const CellTask& task);
     void decide(LeafIndex first, LeafIndex second);
-    void note_special(const PolygonRef& a, const PolygonRef& b);
+    [[nodiscard]] bool is_special(std::size_t operand, const PolygonRef& facet) const {
+        const std::vector<std::uint8_t>& marks = is_special_[operand];
+        return !marks.empty() && marks[facet.facet] != 0;
+    }
+    void note_special(std::size_t operand, const PolygonRef& facet);
+    void note_special(const PolygonRef& a, const PolygonRef& b) {
+        note_special(0, a);
+        note_special(1, b);
+    }
     void look_at_plane(const FacetCorners& first, bool is_above, bool same_side);
     [[nodiscard]] bool leave_out(CellTask& task);
     void solve_both(std::array<CellTask, 2>& children);
+    [[nodiscard]] bool settle_plane(const CellTask& task);
+    [[nodiscard]] bool settle_side(std::span<const PolygonRef> first,
+                                   std::span<const PolygonRef> second, bool same_side);
+    [[nodiscard]] bool is_known(const std::array<int, 3>& normal, bool same_side) const {
+        return std::ranges::find(known_planes_, std::pair(normal, same_side)) !=
+               known_planes_.end();
+    }
 
     SharedSearch& search_;
     EvaluateStats stats_;
@@ -99,6 +121,9 @@ private:
     FilteredPairs::Doubtful doubtful_;
     std::array<std::vector<std::uint8_t>, 2> is_special_;  // facets that are listed as such
     PairSearch::Outcome directions_;
+    // Of planes in which two facets cover a part: the signs of the first one's normal, and whether
+    // the second one faces the same way. A second pair with these says nothing new.
+    std::vector<std::pair<std::array<int, 3>, bool>> known_planes_;
     std::vector<PolygonRef> polygons_;
 };
 
@@ -120,19 +145,89 @@ PackedBox* PairFinder::boxes_of(const LatticeMesh& mesh, std::span<const std::ui
     return entries;
 }
 
+// Of facets that reach out of a box, those that are long beside it.
+struct LongFacets {
+    PackedBox within;
+    std::array<int, 3> length{};
+
+    explicit LongFacets(const PackedBox& box) : within(box) {
+        for (std::size_t k = 0; k < 3; ++k) length[k] = (box.high(k) - box.low(k)) / long_part;
+    }
+    [[nodiscard]] bool has(const PackedBox& e) const {
+        int along = 0;
+        for (std::size_t k = 0; k < 3; ++k) along += e.high(k) - e.low(k) > length[k] ? 1 : 0;
+        return along > 1 && !within.contains(e);
+    }
+    static constexpr int long_part = 3;
+};
+
+std::uint64_t pairs_of(const CellTask& task) {
+    return std::uint64_t{task.operands[0].count} * task.operands[1].count;
+}
+
+// What part of the pairs is left on both sides of a splitting plane, by a sample of either list.
+double part_left(const CellTask& task, const SplittingPlane& splitter) {
+    constexpr std::uint32_t sample = 32;
+    const auto axis = static_cast<std::size_t>(splitter.axis);
+    const int q = task.frame.at(axis, splitter.last_below() + 1);
+    double below = 1;
+    double above = 1;
+    for (const CellOperand& o : task.operands) {
+        const std::uint32_t step = std::max(o.count / sample, 1U);
+        std::array<int, 3> counts{};
+        for (std::uint32_t i = 0; i < o.count; i += step) {
+            counts[0] += o.entries[i].low(axis) < q ? 1 : 0;
+            counts[1] += o.entries[i].high(axis) >= q ? 1 : 0;
+            ++counts[2];
+        }
+        below *= static_cast<double>(counts[0]) / counts[2];
+        above *= static_cast<double>(counts[1]) / counts[2];
+    }
+    return below + above;
+}
+
+// The usual one, unless facets lie along its axis: a plane across another axis parts them, and one
+// that they cross makes two cells of as many pairs.
+std::optional<SplittingPlane> splitter_of(const CellTask& task, std::int64_t offset) {
+    constexpr double useful = 0.7;
+    auto best = choose_splitting_plane(task, offset);
+    if (!best) return best;
+    double least = part_left(task, *best);
+    if (least < useful) return best;
+    const PackedBox both = task.operands[0].box.intersected(task.operands[1].box);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const int extent = both.high(k) - both.low(k);
+        if (extent <= 0) continue;
+        const int middle = both.low(k) + (extent + 1) / 2;
+        const SplittingPlane other{static_cast<int>(k),
+                                   task.frame.last_below(k, middle) * splitting_scale + offset};
+        const double left = part_left(task, other);
+        if (left >= least) continue;
+        least = left;
+        best = other;
+    }
+    return best;
+}
+
 // Takes out what does not meet the box of the other mesh's facets; false when nothing is left.
 bool PairFinder::leave_out(CellTask& task) {
     for (std::size_t i = 0; i < 2; ++i) {
         CellOperand& o = task.operands[i];
         const PackedBox& other = task.operands[1 - i].box;
         if (o.count == 0 || other.is_empty() || o.box.intersected(other).is_empty()) return false;
-        if (other.contains(o.box)) continue;
+        if (other.contains(box_of(o.entries, o.count))) continue;
         const PackedReach reach(other);
+        const LongFacets long_facets(o.box.intersected(other));
         auto* const entries = arena_.take<PackedBox>(o.count + 1);
         PackedBox* end = entries;
         for (const PackedBox& e : o.list()) {
-            copy(e, end);
-            end += reach.meets(e) ? 1 : 0;
+            if (!reach.meets(e)) continue;
+            if (long_facets.has(e)) {
+                *end = search_.clips[i].clipped(e.id, e.intersected(long_facets.within));
+                end += end->is_empty() ? 0 : 1;
+            } else {
+                copy(e, end++);
+            }
         }
         o.entries = entries;
         o.count = static_cast<std::uint32_t>(end - entries);
@@ -142,16 +237,19 @@ bool PairFinder::leave_out(CellTask& task) {
 }
 
 void PairFinder::solve(CellTask& task) {
-    if (search_.has_equal.load(std::memory_order_relaxed)) return;
+    if (search_.has_equal.load(std::memory_order_relaxed) ||
+        search_.is_hopeless.load(std::memory_order_relaxed))
+        return;
     const auto mark = arena_.mark();
     ++stats_.cells;
     check_budget(search_.options, stats_);
     stats_.depth = std::max(stats_.depth, task.depth);
-    if (leave_out(task)) {
+    if (leave_out(task) && !settle_plane(task)) {
         stats_.listed_polygons += task.size();
-        const bool large = task.size() > search_.options.leaf_polygons && task.stalled < 4;
+        const bool large = task.size() > search_.options.leaf_polygons &&
+                           task.stalled < (pairs_of(task) > many_pairs ? 16 : 4);
         const auto splitter =
-            large ? choose_splitting_plane(task, search_.options.splitting_offset) : std::nullopt;
+            large ? splitter_of(task, search_.options.splitting_offset) : std::nullopt;
         if (splitter) {
             divide(task, *splitter);
         } else {
@@ -177,8 +275,9 @@ void PairFinder::divide(const CellTask& task, const SplittingPlane& splitter) {
               {children[0].operands, children[1].operands});
     const auto held =
         search_.memory.hold((children[0].size() + children[1].size()) * sizeof(PackedBox));
-    const std::uint64_t largest = std::max(children[0].size(), children[1].size());
-    for (CellTask& c : children) c.stalled = 10 * largest > 9 * task.size() ? task.stalled + 1 : 0;
+    const std::uint64_t left = pairs_of(children[0]) + pairs_of(children[1]);
+    const bool stalls = 10 * left > 9 * pairs_of(task);
+    for (CellTask& c : children) c.stalled = stalls ? task.stalled + 1 : 0;
     solve_both(children);
 }
 
@@ -215,6 +314,7 @@ void PairFinder::compare(const CellTask& task) {
         search_.is_uncertain.store(true, std::memory_order_relaxed);
         return;
     }
+    draw_in_boxes(task);
     pairs_.relate_all_but(doubtful_, facets_, stats_);
     pairs_.add_to(crossings_, facets_);
     if (!doubtful_.empty() && !search_.decides)
@@ -223,16 +323,104 @@ void PairFinder::compare(const CellTask& task) {
         if (search_.decides) decide(a, b);
 }
 
+FacetCorners corners_of(const PolygonRef& ref) {
+    const auto at = [&](int i) { return &ref.source->corner(ref.facet, i); };
+    return {at(0), at(1), at(2)};
+}
+
+// All facets of two lists in one plane.
+class FacetsOfPlane {
+public:
+    // False where some are not in the plane of the first one.
+    [[nodiscard]] bool list(const CellTask& task) {
+        const CellOperand& first = task.operands[0];
+        const CellOperand& second = task.operands[1];
+        const PolygonRef any = first.polygon(first.entries[0].id);
+        const Plane plane = any.source->support(any.facet);
+        const auto is_in_plane = [&](const PolygonRef& r) {
+            for (int i = 0; i < 3; ++i)
+                if (sign_of(side_of(r.source->corner(r.facet, i), plane)) != 0) return false;
+            return true;
+        };
+        // The last ones before all others: they are of another plane most often.
+        for (const CellOperand* o : {&second, &first})
+            if (!is_in_plane(o->polygon(o->entries[o->count - 1].id))) return false;
+        normal_ = normal_signs(corners_of(any));
+        for (std::size_t i = 0; i < 2; ++i)
+            for (const PackedBox& e : task.operands[i].list()) {
+                const PolygonRef r = task.operands[i].polygon(e.id);
+                if (!is_in_plane(r)) return false;
+                facets_[i][normal_signs(corners_of(r)) == normal_ ? 0 : 1].push_back(r);
+            }
+        return true;
+    }
+    // Those of an operand that face as the first one does, or the other way.
+    [[nodiscard]] std::span<const PolygonRef> facing(std::size_t operand, std::size_t way) const {
+        return facets_[operand][way];
+    }
+
+private:
+    std::array<int, 3> normal_{};
+    std::array<std::array<std::vector<PolygonRef>, 2>, 2> facets_;
+};
+
+// In a cell in which all facets lie in one plane none cross. All are as good as special, and of the
+// plane no more is to be known than whether some cover a part of it together; so the pairs are not
+// compared, which may all have a part in common where long facets cover a face in two ways.
+bool PairFinder::settle_plane(const CellTask& task) {
+    if (!search_.decides || pairs_of(task) < many_pairs_of_plane) return false;
+    FacetsOfPlane plane;
+    if (!plane.list(task)) return false;
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+            if (!settle_side(plane.facing(0, i), plane.facing(1, j), i == j)) return false;
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t way = 0; way < 2; ++way)
+            for (const PolygonRef& r : plane.facing(i, way)) note_special(i, r);
+    return true;
+}
+
+// Looks for two that cover a part of the plane. False where there are none among many. It does not
+// ask what is known: that depends on which cells a thread has come to.
+bool PairFinder::settle_side(std::span<const PolygonRef> first, std::span<const PolygonRef> second,
+                             bool same_side) {
+    if (first.empty() || second.empty()) return true;
+    const std::array<int, 3> normal = normal_signs(corners_of(first[0]));
+    std::size_t tries = 16 * (first.size() + second.size());
+    for (const PolygonRef& a : first)
+        for (const PolygonRef& b : second) {
+            if (tries-- == 0) return false;
+            if (coplanar_overlap(corners_of(a), corners_of(b)) != Overlap::Insides) continue;
+            look_at_plane(corners_of(a), search_.operands.shift.along(normal) > 0, same_side);
+            return true;
+        }
+    return false;
+}
+
+// To those of the list, which are of what of long facets lies near the other mesh's.
+void PairFinder::draw_in_boxes(const CellTask& task) {
+    const Frame& frame = task.frame;
+    LeafIndex item = 0;
+    Vector3 origin;
+    for (std::size_t k = 0; k < 3; ++k) origin[k] = static_cast<double>(frame.origin[k]);
+    origin = facets_.from_lattice({origin, 0.0}).c;
+    const double unit = std::ldexp(1.0, frame.shift);
+    for (const CellOperand& o : task.operands)
+        for (const PackedBox& e : o.list()) {
+            FilteredFacet& f = facets_[item++];
+            for (std::size_t k = 0; k < 3; ++k) {
+                f.lo[k] = std::max(f.lo[k], origin[k] + unit * (e.low(k) - 1));
+                f.hi[k] = std::min(f.hi[k], origin[k] + unit * (e.high(k) + 2));
+            }
+        }
+}
+
 // A pair that doubles leave open.
 void PairFinder::decide(LeafIndex first, LeafIndex second) {
-    const auto corners = [](const PolygonRef& ref) -> FacetCorners {
-        const auto at = [&](int i) { return &ref.source->corner(ref.facet, i); };
-        return {at(0), at(1), at(2)};
-    };
     const PolygonRef& a = facets_[first].ref;
     const PolygonRef& b = facets_[second].ref;
     const InfinitesimalShift& shift = search_.operands.shift;
-    const ShiftedPair pair = relate_shifted(corners(a), corners(b), shift);
+    const ShiftedPair pair = relate_shifted(corners_of(a), corners_of(b), shift);
     ++stats_.doubtful_pairs;
     if (pair.touches) note_special(a, b);
     switch (pair.kind) {
@@ -249,27 +437,28 @@ void PairFinder::decide(LeafIndex first, LeafIndex second) {
                 search_.has_equal.store(true, std::memory_order_relaxed);
             } else {
                 note_special(a, b);
-                look_at_plane(corners(a), shift.along(normal_signs(corners(a))) > 0,
+                look_at_plane(corners_of(a), shift.along(normal_signs(corners_of(a))) > 0,
                               pair.same_side);
             }
             break;
         case ShiftedPair::Kind::Coplanar: {
-            const Overlap overlap = coplanar_overlap(corners(a), corners(b));
+            if (is_special(0, a) && is_special(1, b) &&
+                is_known(normal_signs(corners_of(a)), pair.same_side))
+                break;
+            const Overlap overlap = coplanar_overlap(corners_of(a), corners_of(b));
             if (overlap != Overlap::None) note_special(a, b);
             if (overlap == Overlap::Insides)
-                look_at_plane(corners(a), pair.is_above, pair.same_side);
+                look_at_plane(corners_of(a), pair.is_above, pair.same_side);
             break;
         }
     }
 }
 
-void PairFinder::note_special(const PolygonRef& a, const PolygonRef& b) {
-    for (std::size_t i = 0; i < 2; ++i) {
-        const PolygonRef& r = i == 0 ? a : b;
-        if (is_special_[i].empty()) is_special_[i].resize(r.source->facet_count());
-        if (std::exchange(is_special_[i][r.facet], std::uint8_t{1}) == 0)
-            crossings_.special.push_back(crossings_.number_of(i, r.facet));
-    }
+void PairFinder::note_special(std::size_t operand, const PolygonRef& facet) {
+    std::vector<std::uint8_t>& marks = is_special_[operand];
+    if (marks.empty()) marks.resize(facet.source->facet_count());
+    if (std::exchange(marks[facet.facet], std::uint8_t{1}) == 0)
+        crossings_.special.push_back(crossings_.number_of(operand, facet.facet));
 }
 
 // Two facets that cover a part of one plane. Moved to the side on which the first mesh leaves it
@@ -281,11 +470,16 @@ void PairFinder::look_at_plane(const FacetCorners& first, bool is_above, bool sa
     const bool same_way = operands[0].inside_above == operands[1].inside_above;
     const bool wants_above = operands[0].is_open_below();
     std::array<int, 3> direction = normal_signs(first);
+    if (!is_known(direction, same_side)) known_planes_.emplace_back(direction, same_side);
     if (!wants_above)
         for (int& d : direction) d = -d;
     const bool one_does = same_way == same_side;
     auto& list = one_does ? directions_.wished : directions_.wanted;
-    if (std::ranges::find(list, direction) == list.end()) list.push_back(direction);
+    if (std::ranges::find(list, direction) == list.end()) {
+        list.push_back(direction);
+        if (!one_does && !shift_along(list))
+            search_.is_hopeless.store(true, std::memory_order_relaxed);
+    }
     bool& is_so = one_does ? directions_.is_as_wished : directions_.is_as_wanted;
     is_so = is_so && is_above == wants_above;
 }
@@ -294,14 +488,28 @@ void PairFinder::look_at_plane(const FacetCorners& first, bool is_above, bool sa
 
 PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) const {
     Outcome out;
-    SharedSearch search{options_, crossings, memory_, parallel_, recognises_equal, decides_};
+    const auto source = [&](std::size_t i) -> const Source& {
+        return *nodes_[i]->polygons().whole_source();
+    };
+    Box all = source(0).box();
+    all.add(source(1).box());
+    const Frame frame = Frame::covering(all);
+    SharedSearch search{options_,
+                        crossings,
+                        memory_,
+                        parallel_,
+                        recognises_equal,
+                        decides_,
+                        frame,
+                        {FacetClip(frame, source(0).mesh()), FacetClip(frame, source(1).mesh())}};
     for (const TwoLists& lists : parts) {
         if (lists[0].empty() || lists[1].empty()) continue;
         search.finder().run(nodes_, lists);
-        if (search.has_equal.load()) break;
+        if (search.has_equal.load() || search.is_hopeless.load()) break;
     }
-    out.has_equal = search.has_equal.load();
-    out.is_certain = !search.is_uncertain.load();
+    const bool is_hopeless = search.is_hopeless.load();
+    out.has_equal = search.has_equal.load() && !is_hopeless;
+    out.is_certain = !search.is_uncertain.load() && !is_hopeless;
     search.finders.for_each([&](const PairFinder& f) {
         if (!out.has_equal) crossings.append(f.crossings());
         stats += f.stats();

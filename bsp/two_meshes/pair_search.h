@@ -24,7 +24,7 @@ class PairSearch {
 public:
     struct Outcome {
         bool has_equal = false;  ///< some facet has an equal; all else is left out then
-        bool is_certain = true;  ///< all pairs were decided
+        bool is_certain = true;  ///< all pairs were decided, and no directions exclude each other
         /// Directions, by their signs, in which the second mesh must be moved: else both meshes
         /// bound the result where they have a part of a plane in common. They do not depend on how
         /// it was moved.

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -34,6 +35,7 @@
 #include <trisect/bsp/two_meshes/equal_facets.h>
 #include <trisect/bsp/two_meshes/facet_sides.h>
 #include <trisect/bsp/two_meshes/pair_search.h>
+#include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -100,20 +102,24 @@ struct TwoMeshes {
     }
 };
 
-// A direction that has a positive product with all wanted ones, of which the first sign that is
-// not 0 counts; nothing where there is none.
-std::optional<InfinitesimalShift> shift_along(std::span<const std::array<int, 3>> wanted) {
-    InfinitesimalShift shift;
-    do {
-        for (unsigned signs = 0; signs < 8; ++signs) {
-            for (std::size_t k = 0; k < 3; ++k)
-                shift.signs[k] = static_cast<std::int8_t>((signs >> k & 1U) != 0 ? -1 : 1);
-            if (std::ranges::all_of(wanted, [&](const auto& w) { return shift.along(w) > 0; }))
-                return shift;
+// Cubes that either mesh occupies, as many as its facets fill at a price. Where facets are long
+// they are larger: of the least number each facet meets few.
+struct CubesOfBoth {
+    std::optional<CubeGrid> grid;
+    std::array<std::optional<OccupiedCubes>, 2> cubes;
+
+    CubesOfBoth(const TwoMeshes& two, bool parallel) {
+        for (int slabs = slabs_for(two.larger()); !are_useful(); slabs = std::max(slabs / 2, 4)) {
+            grid.emplace(two.common, slabs);
+            do_both(
+                parallel, [&] { cubes[0].emplace(*grid, *two.meshes[0]); },
+                [&] { cubes[1].emplace(*grid, *two.meshes[1]); });
         }
-    } while (std::ranges::next_permutation(shift.axes).found);
-    return std::nullopt;
-}
+    }
+    [[nodiscard]] bool are_useful() const {
+        return cubes[0] && cubes[0]->is_useful() && cubes[1]->is_useful();
+    }
+};
 
 using Fate = EqualFacets::Fate;
 
@@ -219,8 +225,6 @@ std::optional<TwoLists> facets_beside(const TwoMeshes& two, const CubeGrid& grid
                                       const TwoLists& near, const SolidStates& solids,
                                       bool parallel, FoundPairs& found) {
     Crossings& crossings = found.crossings;
-    // Meshes apart, or one in the other, are for the tree.
-    if (crossings.pairs.empty() && crossings.special.empty() && !found.equal) return std::nullopt;
     std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
     std::array<std::vector<Crossings::Corner>, 2> corners;
     const bool whole = two.source(0).is_whole() && two.source(1).is_whole();
@@ -242,6 +246,18 @@ std::optional<TwoLists> facets_beside(const TwoMeshes& two, const CubeGrid& grid
     return TwoLists{*std::move(facets[0]), *std::move(facets[1])};
 }
 
+// All facets of both meshes that bound the result, where they are far from each other.
+TwoLists facets_apart(const TwoMeshes& two, const SolidStates& solids, const Crossings& crossings) {
+    TwoLists out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Crossings::Operand& other = crossings.operands[1 - i];
+        if (is_below_far_out(*solids[1 - i], other) != other.is_open_below()) continue;
+        out[i].resize(two.meshes[i]->triangles.size());
+        std::iota(out[i].begin(), out[i].end(), 0U);
+    }
+    return out;
+}
+
 // What bounds the result and is not crossed, of either mesh; nothing when that is not known.
 std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
                                                            const SolidStates& solids,
@@ -249,18 +265,26 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
                                                            bool parallel, Crossings& crossings,
                                                            EvaluateStats& stats) {
     MemoryBudget memory(options.max_memory);
-    const CubeGrid grid(two.common, slabs_for(two.larger()));
-    std::array<std::optional<OccupiedCubes>, 2> cubes;
-    do_both(
-        parallel, [&] { cubes[0].emplace(grid, *two.meshes[0]); },
-        [&] { cubes[1].emplace(grid, *two.meshes[1]); });
-    if (!cubes[0]->is_useful() || !cubes[1]->is_useful()) return std::nullopt;
+    const auto keep = [&](TwoLists facets) {
+        std::vector<UncrossedFacets> out;
+        for (std::size_t i = 0; i < 2; ++i) {
+            std::vector<std::uint32_t>& list = facets[i];
+            stats.untouched_polygons += list.size();
+            memory.keep(list.size() * sizeof(std::uint32_t));
+            out.push_back({&two.source(i), crossings.operands[i].inside_above, std::move(list)});
+        }
+        stats.memory = memory.peak();
+        return out;
+    };
+    if (two.common.is_empty()) return keep(facets_apart(two, solids, crossings));
+    const CubesOfBoth both(two, parallel);
+    const CubeGrid& grid = *both.grid;
+    const auto& cubes = both.cubes;
     const auto of_cubes = memory.hold(cubes[0]->bytes() + cubes[1]->bytes());
     TwoLists near;
     do_both(
         parallel, [&] { near[0] = cubes[0]->facets_in(cubes[1]->cubes()); },
         [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes()); });
-    if (near[0].empty() || near[1].empty()) return std::nullopt;
     const auto of_near = memory.hold((near[0].size() + near[1].size()) * sizeof(std::uint32_t));
     PairsOfMeshes pairs(two, near, options, memory, parallel, crossings);
     for (const bool recognises_equal : {true, false}) {
@@ -273,28 +297,19 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
         if (!facets) return std::nullopt;
         stats += found;
         crossings = std::move(of_pairs->crossings);
-        std::vector<UncrossedFacets> out;
-        for (std::size_t i = 0; i < 2; ++i) {
-            std::vector<std::uint32_t>& list = (*facets)[i];
-            stats.untouched_polygons += list.size();
-            memory.keep(list.size() * sizeof(std::uint32_t));
-            out.push_back({&two.source(i), crossings.operands[i].inside_above, std::move(list)});
-        }
-        stats.memory = memory.peak();
-        return out;
+        return keep(*std::move(facets));
     }
     return std::nullopt;
 }
 
 }  // namespace
 
-bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solids,
-                          const EvaluateSettings& options, std::size_t least_facets) {
+bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
+                    const EvaluateSettings& options, std::size_t least_facets) {
     if (solids.size() != 2 || options.budget != nullptr || !crossings_of(*formula, solids))
         return false;
     const TwoMeshes two(solids);
-    return two.smaller() >= least_facets && two.are_of_a_size() && two.have_outer_references() &&
-           !two.common.is_empty();
+    return two.smaller() >= least_facets && two.are_of_a_size() && two.have_outer_references();
 }
 
 std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,

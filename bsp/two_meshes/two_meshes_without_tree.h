@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Operations on two large meshes of which only triangles may be wanted.
+// Operations on two meshes of which only triangles may be wanted.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,16 @@
 
 namespace trisect::detail {
 
-/// Whether a formula is a union, an intersection or a difference of two large imported meshes, and
-/// work is not limited. Not where one has an index, or is so large beside the other that it gets
-/// one: what is beside the smaller one is not looked at then. Meshes of fewer than `least_facets`
-/// are divided as quickly.
-[[nodiscard]] bool are_two_large_meshes(const Residual::Ref& formula, const SolidStates& solids,
-                                        const EvaluateSettings& options,
-                                        std::size_t least_facets = 1024);
+/// Whether a formula is a union, an intersection or a difference of two imported meshes, and work
+/// is not limited. Not where one has an index, or is so large beside the other that it gets one:
+/// what is beside the smaller one is not looked at then. Meshes of fewer than `least_facets` are
+/// one leaf of a tree.
+[[nodiscard]] bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
+                                  const EvaluateSettings& options, std::size_t least_facets = 64);
 
 /// The value of such a formula, with that tree. Nothing where a pair of facets is not decided, or
 /// sides of facets are not known from the pairs. What it returns does not depend on the number of
-/// threads. \pre are_two_large_meshes()
+/// threads. \pre are_two_meshes()
 [[nodiscard]] std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
                                                              const SolidStates& solids,
                                                              const EvaluateSettings& options,

@@ -220,7 +220,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     const bool whole = std::ranges::all_of(states, [](const auto& s) { return s->whole; });
     EvaluateStats stats;
     const FormulaRule undivided{[](const auto& formula, const auto& solids, const auto& with) {
-                                    return are_two_large_meshes(formula, solids, with, 1);
+                                    return are_two_meshes(formula, solids, with, 1);
                                 },
                                 &evaluate_without_tree};
     const EvaluateSettings settings{options,

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include <trisect/brep/primitives/sphere.h>
@@ -75,6 +76,56 @@ TEST(Undivided, PairsInGeneralPosition) {
                         seed % 2 == 0 ? 4 : 30, count);
     }
     EXPECT_GT(count.undivided, 200);
+}
+
+// Rings of long thin facets, and fans of such at both ends or in an apex.
+Operand round_body(std::size_t kind, int corners, std::int64_t radius) {
+    reference::LatticePolygon polygon;
+    for (int i = 0; i < corners; ++i) {
+        const double r = static_cast<double>(radius) * (kind == 2 && i % 2 == 1 ? 0.8 : 1.0);
+        const double angle = 2 * 3.14159265358979 * i / corners;
+        polygon.push_back({std::llround(r * std::cos(angle)), std::llround(r * std::sin(angle))});
+    }
+    if (kind == 1) return reference::pyramid(polygon, -2 * radius, {radius / 9, 7, 2 * radius});
+    return reference::prism(polygon, -2 * radius, 2 * radius);
+}
+
+// Turned any way, their boxes say little about where they are.
+TEST(Undivided, LongFacets) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 540000);
+        const auto body = [&](std::size_t kind) {
+            return solid(engines::mapped(round_body(kind, 40, 2000), random));
+        };
+        const trisect::Expression a = body(seed % 3);
+        const trisect::Expression b = body(seed / 3 % 3);
+        for (const trisect::Expression& e : {a | b, a & b, b - a})
+            expect_same_as_divided(e, seed % 2 == 0 ? 8 : 40, count);
+    }
+    EXPECT_GT(count.undivided, 80);
+}
+
+// Fans in one plane, cut differently.
+TEST(Undivided, LongFacetsInSpecialPosition) {
+    Count count;
+    const std::array<reference::LatticePoint, 6> moves{
+        {{0, 0, 4000}, {1000, 0, 0}, {0, 0, 0}, {700, 300, 0}, {0, 500, 1000}, {2000, 0, 4000}}};
+    for (std::size_t kind = 0; kind < 3; ++kind)
+        for (const reference::LatticePoint& by : moves)
+            for (std::size_t turns = 0; turns < 2; ++turns) {
+                const Operand body = round_body(kind, 24, 1000);
+                Operand other = body;
+                for (auto& triangle : other)
+                    for (auto& p : triangle)
+                        if (turns == 1) p = {-p[0], -p[1], p[2]};
+                const trisect::Expression a = solid(body);
+                const trisect::Expression b = solid(reference::translated(other, by));
+                for (const trisect::Expression& e : {a | b, a & b, b - a})
+                    expect_same_as_divided(e, 10, count);
+            }
+    EXPECT_GT(count.undivided, 60);
 }
 
 // A body of several parts, some of which lie within the other body, or where it does not come.

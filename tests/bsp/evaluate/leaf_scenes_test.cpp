@@ -18,6 +18,7 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/diagnostics.h>
+#include <trisect/kernel/stop_scope.h>
 
 #include "engines/evaluate_stats.h"
 
@@ -127,6 +128,7 @@ TEST(NeedleFans, GenericCutsNeedNoWideIntegers) {
     const Solid b = Solid::from_lattice_mesh(double_cone(60, 0.6));
     const trisect::Diagnostics<trisect::PredicateCounters> diagnostics;
     EvaluateStats stats;
+    const trisect::StopScope by_cells({.max_work = std::uint64_t{1} << 60});  // counted by cells
     const Solid joined = evaluate(a | b, {}, &stats);
     arrange_leaves(*trisect::detail::state_of(joined)->root().node);
     const auto counters = diagnostics.counters();
