@@ -32,6 +32,8 @@ namespace {
 
 class PairFinder;
 
+bool has_long_facets_of(const CellOperand& o);
+
 constexpr std::uint64_t many_pairs = 20'000;
 constexpr std::uint64_t many_pairs_of_plane = 100;
 
@@ -45,6 +47,7 @@ struct SharedSearch {
     bool decides;  // doubtful pairs
     Frame frame;
     std::array<FacetClip, 2> clips;
+    bool has_long_facets = false;           // set by the finder that begins
     std::atomic<bool> has_equal{false};     // all may stop
     std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
     std::atomic<bool> is_hopeless{false};   // there is no direction as wanted: all may stop
@@ -78,6 +81,8 @@ public:
             o.box = box_of(o.entries, o.count);
         }
         task.operands = operands;
+        search_.has_long_facets = std::ranges::any_of(
+            operands, [](const CellOperand& o) { return has_long_facets_of(o); });
         solve(task);
     }
     [[nodiscard]] const Crossings& crossings() const { return crossings_; }
@@ -161,6 +166,35 @@ struct LongFacets {
     static constexpr int long_part = 3;
 };
 
+// Copies what meets the reach, of long facets what of them lies within; returns the end.
+PackedBox* clip_to(const CellOperand& o, const LongFacets& long_facets, const FacetClip& clip,
+                   const PackedReach& reach, PackedBox* end) {
+    for (const PackedBox& e : o.list()) {
+        if (!reach.meets(e)) continue;
+        if (long_facets.has(e)) {
+            *end = clip.clipped(e.id, e.intersected(long_facets.within));
+            end += end->is_empty() ? 0 : 1;
+        } else {
+            copy(e, end++);
+        }
+    }
+    return end;
+}
+
+// Whether more than a few of a list are longer than an eighth of all of it, by a sample.
+bool has_long_facets_of(const CellOperand& o) {
+    constexpr std::uint32_t sample = 256;
+    const auto length = [](const PackedBox& b) {
+        return std::max({b.high(0) - b.low(0), b.high(1) - b.low(1), b.high(2) - b.low(2)});
+    };
+    const int limit = length(o.box) / 8;
+    const std::uint32_t step = std::max(o.count / sample, 1U);
+    std::uint32_t found = 0;
+    for (std::uint32_t i = 0; i < o.count; i += step)
+        found += length(o.entries[i]) > limit ? step : 0;
+    return 64 * std::uint64_t{found} > o.count;
+}
+
 std::uint64_t pairs_of(const CellTask& task) {
     return std::uint64_t{task.operands[0].count} * task.operands[1].count;
 }
@@ -188,10 +222,11 @@ double part_left(const CellTask& task, const SplittingPlane& splitter) {
 
 // The usual one, unless facets lie along its axis: a plane across another axis parts them, and one
 // that they cross makes two cells of as many pairs.
-std::optional<SplittingPlane> splitter_of(const CellTask& task, std::int64_t offset) {
+std::optional<SplittingPlane> splitter_of(const CellTask& task, std::int64_t offset,
+                                          bool has_long_facets) {
     constexpr double useful = 0.7;
     auto best = choose_splitting_plane(task, offset);
-    if (!best) return best;
+    if (!best || !has_long_facets) return best;
     double least = part_left(task, *best);
     if (least < useful) return best;
     const PackedBox both = task.operands[0].box.intersected(task.operands[1].box);
@@ -215,18 +250,16 @@ bool PairFinder::leave_out(CellTask& task) {
         CellOperand& o = task.operands[i];
         const PackedBox& other = task.operands[1 - i].box;
         if (o.count == 0 || other.is_empty() || o.box.intersected(other).is_empty()) return false;
-        if (other.contains(box_of(o.entries, o.count))) continue;
+        if (other.contains(search_.has_long_facets ? box_of(o.entries, o.count) : o.box)) continue;
         const PackedReach reach(other);
-        const LongFacets long_facets(o.box.intersected(other));
         auto* const entries = arena_.take<PackedBox>(o.count + 1);
         PackedBox* end = entries;
-        for (const PackedBox& e : o.list()) {
-            if (!reach.meets(e)) continue;
-            if (long_facets.has(e)) {
-                *end = search_.clips[i].clipped(e.id, e.intersected(long_facets.within));
-                end += end->is_empty() ? 0 : 1;
-            } else {
-                copy(e, end++);
+        if (search_.has_long_facets) {
+            end = clip_to(o, LongFacets(o.box.intersected(other)), search_.clips[i], reach, end);
+        } else {
+            for (const PackedBox& e : o.list()) {
+                copy(e, end);
+                end += reach.meets(e) ? 1 : 0;
             }
         }
         o.entries = entries;
@@ -249,7 +282,8 @@ void PairFinder::solve(CellTask& task) {
         const bool large = task.size() > search_.options.leaf_polygons &&
                            task.stalled < (pairs_of(task) > many_pairs ? 16 : 4);
         const auto splitter =
-            large ? splitter_of(task, search_.options.splitting_offset) : std::nullopt;
+            large ? splitter_of(task, search_.options.splitting_offset, search_.has_long_facets)
+                  : std::nullopt;
         if (splitter) {
             divide(task, *splitter);
         } else {
@@ -314,7 +348,7 @@ void PairFinder::compare(const CellTask& task) {
         search_.is_uncertain.store(true, std::memory_order_relaxed);
         return;
     }
-    draw_in_boxes(task);
+    if (search_.has_long_facets) draw_in_boxes(task);
     pairs_.relate_all_but(doubtful_, facets_, stats_);
     pairs_.add_to(crossings_, facets_);
     if (!doubtful_.empty() && !search_.decides)
