@@ -43,4 +43,23 @@ private:
     static inline constinit thread_local bool is_gone = false;
 };
 
+/// A spare T for as long as this lives. T has bytes(), and what takes more than `most_bytes` is not
+/// kept. It is as the last user left it.
+template <class T>
+class Spare {
+public:
+    Spare() : value_(Spares<T>::take()) {}
+    Spare(const Spare&) = delete;
+    Spare& operator=(const Spare&) = delete;
+    ~Spare() {
+        if (value_.bytes() <= most_bytes) Spares<T>::give(std::move(value_));
+    }
+    [[nodiscard]] T* operator->() { return &value_; }
+    [[nodiscard]] T& operator*() { return value_; }
+
+private:
+    static constexpr std::size_t most_bytes = std::size_t{1} << 20U;
+    T value_;
+};
+
 }  // namespace trisect::detail

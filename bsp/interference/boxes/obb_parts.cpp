@@ -33,12 +33,6 @@
 
 namespace trisect::detail {
 
-namespace {
-
-constexpr std::uint32_t few_samples = 24;
-
-}  // namespace
-
 ObbParts::ObbParts(std::span<const std::array<double, 3>> positions, double error,
                    std::vector<std::array<std::uint32_t, 3>> triangles)
     : corners_(std::move(triangles)) {
@@ -54,16 +48,9 @@ ObbParts::ObbParts(std::span<const std::array<double, 3>> positions, double erro
     set_items();
 }
 
-ObbParts::ObbParts(std::vector<Vector3> corners, double slack)
-    : slack_(slack), samples_(few_samples), points_(std::move(corners)) {
-    corners_.resize(points_.size() / 3);
-    for (std::uint32_t t = 0; t < corners_.size(); ++t) corners_[t] = {3 * t, 3 * t + 1, 3 * t + 2};
-    set_items();
-}
-
 void ObbParts::set_items() {
-    items_.resize(corners_.size());
-    for (std::uint32_t t = 0; t < corners_.size(); ++t) {
+    items_.resize(corners_.empty() ? points_.size() / 3 : corners_.size());
+    for (std::uint32_t t = 0; t < items_.size(); ++t) {
         items_[t].triangle = t;
         for (std::size_t k = 0; k < 3; ++k)
             items_[t].center[k] =
@@ -140,6 +127,8 @@ std::array<ObbParts::Part, 2> ObbParts::halves(const Part& whole) {
             first, items_.begin() + static_cast<std::ptrdiff_t>(middle), last,
             [&axis](const Item& i, const Item& j) { return along(axis, i) < along(axis, j); });
     }
+    if (has_rough_frames())
+        return {Part{whole.begin, middle, whole.frame}, Part{middle, whole.end, whole.frame}};
     return {part(whole.begin, middle), part(middle, whole.end)};
 }
 
@@ -155,6 +144,9 @@ std::size_t ObbParts::divide(const Part& whole, std::uint32_t leaf, std::array<P
         parts[largest] = one;
         parts[count++] = other;
     }
+    // Parts that are divided further at once have had the frame of the whole.
+    if (has_rough_frames())
+        for (std::size_t i = 0; i < count; ++i) parts[i] = part(parts[i].begin, parts[i].end);
     return count;
 }
 

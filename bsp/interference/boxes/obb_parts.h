@@ -32,10 +32,18 @@ public:
     /// `triangles` index `positions`, which are within `error` of the exact points; not none.
     ObbParts(std::span<const std::array<double, 3>> positions, double error,
              std::vector<std::array<std::uint32_t, 3>> triangles);
-    /// Three corners for each triangle, one after the other, in units already; halves of boxes grow
-    /// by `slack`. Frames are those of some of the triangles, as any frame will do. There is no
-    /// origin, unit or radius.
-    ObbParts(std::vector<Vector3> corners, double slack);
+    /// Other triangles, in memory that there is: `put` writes three corners for each, one after the
+    /// other, in units already; halves of boxes grow by `slack`. Frames are those of some of the
+    /// triangles, as any frame will do. There is no origin, unit or radius. \pre made without
+    /// positions
+    template <class Put>
+    void assign(std::uint32_t triangles, double slack, const Put& put) {
+        slack_ = slack;
+        samples_ = few_samples;
+        points_.resize(std::size_t{3} * triangles);
+        put(std::span(points_));
+        set_items();
+    }
     /// What halves of boxes in such units must grow by.
     [[nodiscard]] static double slack_of(double error, double unit) {
         return 0x1p-48 + 2 * (0x1p-50 + error / unit);
@@ -60,6 +68,7 @@ public:
     [[nodiscard]] std::uint32_t triangle(std::uint32_t place) const {
         return items_[place].triangle;
     }
+    /// \pre not after assign().
     [[nodiscard]] const std::array<std::uint32_t, 3>& corners(std::uint32_t triangle) const {
         return corners_[triangle];
     }
@@ -69,6 +78,8 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t few_samples = 24;
+
     struct Item {
         std::uint32_t triangle = 0;
         std::array<float, 3> center{};
@@ -77,9 +88,10 @@ private:
     void set_unit(std::span<const Vector3> positions);
     void set_items();
     [[nodiscard]] const Vector3& corner(std::uint32_t t, std::size_t i) const {
-        return points_[corners_[t][i]];
+        return points_[corners_.empty() ? std::size_t{3} * t + i : corners_[t][i]];
     }
     [[nodiscard]] std::array<Part, 2> halves(const Part& part);
+    [[nodiscard]] bool has_rough_frames() const { return samples_ == few_samples; }
     [[nodiscard]] static float along(const std::array<float, 3>& u, const Item& i) {
         return u[0] * i.center[0] + u[1] * i.center[1] + u[2] * i.center[2];
     }
@@ -88,8 +100,8 @@ private:
     double unit_ = 1;
     double radius_ = 0;
     double slack_ = 0;
-    std::uint32_t samples_ = 0xffffffffU;  // triangles that a frame is made of
-    std::vector<std::array<std::uint32_t, 3>> corners_;
+    std::uint32_t samples_ = 0xffffffffU;                // triangles that a frame is made of
+    std::vector<std::array<std::uint32_t, 3>> corners_;  // if empty, three points for each
     std::vector<Vector3> points_;
     std::vector<Item> items_;
 };

@@ -37,8 +37,8 @@ void DistanceSearch::note(const Candidate& c) {
 }
 
 void DistanceSearch::push(float bound, ObbId a, ObbId b) {
-    heap_.push_back({bound, a, b});
-    std::push_heap(heap_.begin(), heap_.end(), ByBound{});
+    heap_->entries.push_back({bound, a, b});
+    std::push_heap(heap_->entries.begin(), heap_->entries.end(), ByBound{});
 }
 
 void DistanceSearch::expand(const Entry& e) {
@@ -78,7 +78,8 @@ void DistanceSearch::expand(const Entry& e) {
 
 void DistanceSearch::run(double limit, bool stop,
                          std::optional<std::array<std::uint32_t, 2>> start) {
-    heap_.clear();
+    std::vector<Entry>& heap = heap_->entries;
+    heap.clear();
     candidates_.clear();
     limit_ = limit;
     upper_ = std::numeric_limits<double>::infinity();
@@ -90,12 +91,12 @@ void DistanceSearch::run(double limit, bool stop,
         upper_ = c.bounds.upper;
     }
     push(0, ObbId{}, ObbId{});
-    while (!heap_.empty()) {
+    while (!heap.empty()) {
         if (upper_ <= 0 || (stop && upper_ < limit_)) break;
-        const Entry e = heap_.front();
+        const Entry e = heap.front();
         if (unit_ * static_cast<double>(e.bound) > upper_) break;
-        std::pop_heap(heap_.begin(), heap_.end(), ByBound{});
-        heap_.pop_back();
+        std::pop_heap(heap.begin(), heap.end(), ByBound{});
+        heap.pop_back();
         expand(e);
     }
     finish();

@@ -14,6 +14,7 @@
 #include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/pair_distance.h>
 #include <trisect/kernel/pose.h>
+#include <trisect/kernel/support/spares.h>
 
 namespace trisect::detail {
 
@@ -50,6 +51,10 @@ private:
         ObbId a;
         ObbId b;
     };
+    struct Heap {
+        std::vector<Entry> entries;
+        [[nodiscard]] std::size_t bytes() const { return entries.capacity() * sizeof(Entry); }
+    };
     [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const {
         return pairs_->compare(a, b, std::min(upper_, limit_));
     }
@@ -66,7 +71,7 @@ private:
     double limit_ = 0;
     double lower_ = 0;
     double upper_ = 0;
-    std::vector<Entry> heap_;
+    Spare<Heap> heap_;
     std::vector<Candidate> candidates_;
     DistanceCounters counters_;
 };

@@ -19,6 +19,7 @@
 namespace trisect::detail {
 
 void PolygonClipper::begin(IndexPolygons::Id id) {
+    is_all_ = true;
     corners_.clear();
     edges_ = polygons_.edge_names(id);
     if (polygons_.is_triangle(id)) {
@@ -74,6 +75,7 @@ bool PolygonClipper::clip_by(std::size_t axis, double wall, double sign) {
         next_.push_back(x);
     }
     corners_.swap(next_);
+    is_all_ = false;
     return true;
 }
 
@@ -95,6 +97,7 @@ bool PolygonClipper::clip_by_wall(std::size_t axis, std::int64_t wall, double si
         if (d < -e) return true;
         if (d > e) {
             corners_.clear();
+            is_all_ = false;
             return true;
         }
     }
@@ -110,6 +113,7 @@ bool PolygonClipper::clip_by_walls() {
 }
 
 void PolygonClipper::take_exact(IndexPolygons::Id id) {
+    is_all_ = false;
     corners_.clear();
     const ConvexPolygon part = polygons_.part(id);
     for (const Point& p : part.vertices()) {
@@ -133,6 +137,7 @@ const ClippedPolygon& PolygonClipper::clip(IndexPolygons::Id id) {
         take_exact(id);
     result_.corners.clear();
     result_.error = 0;
+    result_.is_all = is_all_;
     for (const Corner& c : corners_) {
         result_.corners.push_back(c.c);
         result_.error = std::max(result_.error, c.error);

@@ -17,6 +17,8 @@ namespace trisect::detail {
 struct ClippedPolygon {
     std::vector<std::array<double, 3>> corners;
     double error = 0;
+    /// Nothing was cut off: the corners are those that the polygon has in IndexPolygons.
+    bool is_all = false;
 
     [[nodiscard]] bool is_empty() const { return corners.empty(); }
 };
@@ -53,6 +55,7 @@ private:
     std::span<const EdgeName> edges_;  // of a fragment
     std::vector<Corner> corners_;
     std::vector<Corner> next_;
+    bool is_all_ = false;
     ClippedPolygon result_;
 };
 

@@ -13,8 +13,10 @@
 #include <trisect/bsp/interference/tree/boxes_counters.h>
 #include <trisect/bsp/interference/tree/clipped_polygon.h>
 #include <trisect/bsp/interference/tree/point_gap.h>
+#include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/spares.h>
 #include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
@@ -29,10 +31,20 @@ LeafBoxes::LeafBoxes(const IndexedLeaf& leaf) : leaf_(leaf) {
 }
 
 TriangleCorners LeafBoxes::corners_of(std::uint32_t triangle) const {
-    if (!is_whole_ && triangle_[triangle].clipped != whole)
-        return clipped_[triangle_[triangle].clipped];
+    using Corners = Triangle::Corners;
     const IndexPolygons& all = polygons();
     const Id id = polygon_of(triangle);
+    if (!is_whole_ && triangle_[triangle].corners != Corners::Source) {
+        const Corners where = triangle_[triangle].corners;
+        const std::size_t at = triangle_[triangle].at;
+        if (where == Corners::Fragment) {
+            const std::span<const Approximation> fragment = all.approximate_corners(id);
+            return {fragment[0].c, fragment[at - 1].c, fragment[at].c};
+        }
+        const auto* const c = &clipped_[at];
+        return where == Corners::Strip ? TriangleCorners{c[0], c[1], c[2]}
+                                       : TriangleCorners{c[1], c[0], c[2]};
+    }
     const Source& source = all.source(id);
     const std::uint32_t f = all.facet(id);
     return {source.corner(f, 0).doubles(), source.corner(f, 1).doubles(),
@@ -59,26 +71,56 @@ double LeafBoxes::most_error() const {
     return clipped_error * largest;
 }
 
+// What take_polygons fills, in memory that there is.
+struct LeafBoxes::Triangles {
+    std::vector<Triangle> triangle;
+    std::vector<std::array<double, 3>> clipped;
+
+    [[nodiscard]] std::size_t bytes() const {
+        return triangle.capacity() * sizeof(triangle[0]) + clipped.capacity() * sizeof(clipped[0]);
+    }
+};
+
 void LeafBoxes::take_polygons() {
     const IndexPolygons& all = polygons();
     PolygonClipper clipper(all, most_error());
-    triangle_.reserve(all.size() + all.size() / 4 + 16);
+    Spare<Triangles> taken;
+    taken->triangle.clear();
+    taken->clipped.clear();
     for (Id id = 0; id < all.size(); ++id) {
         if (all.is_triangle(id) && !all.reaches_out(id)) {
-            triangle_.push_back({id, whole});
-            continue;
-        }
-        is_whole_ = false;
-        const ClippedPolygon& part = clipper.clip(id);
-        error_ = std::max(error_, part.error);
-        for (std::size_t i = 2; i < part.corners.size(); ++i) {
-            triangle_.push_back({id, static_cast<std::uint32_t>(clipped_.size())});
-            clipped_.push_back({part.corners[0], part.corners[i - 1], part.corners[i]});
+            taken->triangle.emplace_back(id, Triangle::Corners::Source, 0);
+        } else {
+            take_polygon(id, clipper.clip(id), *taken);
         }
     }
-    if (is_whole_) triangle_.clear();
-    triangle_.shrink_to_fit();
-    clipped_.shrink_to_fit();
+    if (is_whole_) return;
+    triangle_ = taken->triangle;
+    clipped_ = taken->clipped;
+}
+
+// Clipped corners lie to and fro, so that any three in a row are a triangle: of a polygon of n
+// corners n are kept, not three for each of n - 2 triangles.
+void LeafBoxes::take_polygon(Id id, const ClippedPolygon& part, Triangles& all) {
+    using Corners = Triangle::Corners;
+    error_ = std::max(error_, part.error);
+    if (part.is_all && polygons().is_triangle(id)) {
+        all.triangle.emplace_back(id, Corners::Source, 0);
+        return;
+    }
+    is_whole_ = false;
+    const auto count = static_cast<std::uint32_t>(part.corners.size());
+    if (part.is_all) {
+        for (std::uint32_t i = 2; i < count; ++i)
+            all.triangle.emplace_back(id, Corners::Fragment, i);
+        return;
+    }
+    const auto first = static_cast<std::uint32_t>(all.clipped.size());
+    TRISECT_EXPECTS(first + count < 1U << 30U, "too many clipped corners in a leaf");
+    for (std::uint32_t i = 0; i < count; ++i)
+        all.clipped.push_back(part.corners[i % 2 == 1 ? (i + 1) / 2 : (count - i / 2) % count]);
+    for (std::uint32_t i = 0; i + 2 < count; ++i)
+        all.triangle.emplace_back(id, i % 2 == 0 ? Corners::Strip : Corners::StripBack, first + i);
 }
 
 LeafTree::Bounds LeafBoxes::bounds(std::uint32_t count) const {

@@ -19,6 +19,8 @@
 
 namespace trisect::detail {
 
+struct ClippedPolygon;
+
 /// A point of the boundary: corner `corner` of the source's triangle, or, where that is none, the
 /// first corner of the polygon's part in the cell.
 struct BoundaryPoint {
@@ -32,8 +34,8 @@ struct BoundaryPoint {
 /// these are the boundary; so the triangles of all leaves of a tree are all of it, and have at most
 /// points of their sides in common. Threads may share it.
 ///
-/// Whole triangles of sources are not copied. 12 bytes a triangle, 72 more for one that was
-/// clipped, and the boxes.
+/// Corners of sources and of fragments are not copied. 12 bytes a triangle, 24 more for each corner
+/// of a polygon that was clipped, and the boxes.
 class LeafBoxes final : public LeafTriangles {
 public:
     using Id = IndexPolygons::Id;
@@ -66,15 +68,28 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    // Of a polygon; where its corners are.
     struct Triangle {
+        enum class Corners : std::uint32_t {
+            Source,    // those of the source's triangle
+            Fragment,  // the first of the fragment, number at - 1 and number `at`
+            Strip,     // from `at` on in clipped_
+            StripBack  // the same, in the other sense of turning
+        };
         Id polygon = 0;
-        std::uint32_t clipped = whole;  // of clipped_
+        Corners corners : 2 = Corners::Source;
+        std::uint32_t at : 30 = 0;
+
+        Triangle() = default;
+        Triangle(Id id, Corners where, std::uint32_t place)
+            : polygon(id), corners(where), at(place & ((1U << 30U) - 1)) {}
     };
-    static constexpr std::uint32_t whole = 0xffffffffU;
+    struct Triangles;
 
     void put_corners(std::span<const std::uint32_t> triangles,
                      std::span<std::array<double, 3>> corners) const override;
     void take_polygons();
+    void take_polygon(Id id, const ClippedPolygon& part, Triangles& all);
     [[nodiscard]] double most_error() const;
     [[nodiscard]] LeafTree::Bounds bounds(std::uint32_t count) const;
     [[nodiscard]] std::vector<BoundaryPoint> find_pieces() const;
@@ -82,7 +97,7 @@ private:
     const IndexedLeaf& leaf_;
     bool is_whole_ = true;            // the triangles are the polygons
     std::vector<Triangle> triangle_;  // if not
-    std::vector<TriangleCorners> clipped_;
+    std::vector<std::array<double, 3>> clipped_;
     double error_ = 0;
     std::unique_ptr<const LeafTree> tree_;
     mutable std::once_flag pieces_once_;

@@ -2,9 +2,11 @@
 //
 // The frame is that of some of the polygons, as any frame will do; all corners are in the box.
 //
-// Errors, as in obb_parts.cpp: in units a corner is known within 2^-50 and its own error, for which
-// fragments have a number; for a float axis u the product u · p is off by less than 2^-49 more. The
-// halves' factors are those of obb_parts.cpp.
+// Errors: a corner's difference p from the origin is rounded once in doubles and once to floats,
+// and has its own error, for which fragments have a number. For a float axis u, |u| < 1.01, the
+// product u · p in floats is off by at most 4·2^-24 |u| |p| and |p| is below 1.01 · 3^1/2 M, M the
+// largest product along the three axes: by less than 2^-21 M. The halves' factors are those of
+// obb_parts.cpp.
 
 #include <trisect/bsp/interference/tree/leaf_hull.h>
 
@@ -15,6 +17,7 @@
 #include <trisect/bsp/cells/deferred_leaf.h>
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/float4.h>
 
 namespace trisect::detail {
 
@@ -75,6 +78,7 @@ public:
             for (std::size_t k = 0; k < 3; ++k) {
                 hull_.box.axis[i][k] = static_cast<float>(frame_.axis[i][k]);
                 axis_[i][k] = static_cast<double>(hull_.box.axis[i][k]);
+                along_[k][static_cast<int>(i)] = hull_.box.axis[i][k];
             }
         find_reach();
         if (!is_bounded_) return {};
@@ -129,8 +133,6 @@ private:
 
     // In lattice units about the origin, as far as this is a matter of every corner.
     void find_reach() {
-        lo_.fill(HUGE_VAL);
-        hi_.fill(-HUGE_VAL);
         for_lists(leaf_, [&](const PolygonList& list) {
             if (const Source* const source = list.whole_source();
                 source != nullptr && !source->is_half_space()) {
@@ -149,19 +151,18 @@ private:
         });
         const double per_unit = 1 / hull_.unit;  // a power of two
         for (std::size_t k = 0; k < 3; ++k) {
-            lo_[k] *= per_unit;
-            hi_[k] *= per_unit;
-            // Axes are as good as orthonormal.
-            largest_ = std::max({largest_, 3 * std::fabs(lo_[k]), 3 * std::fabs(hi_[k])});
+            lo_[k] = -static_cast<double>(below_[static_cast<int>(k)]) * per_unit;
+            hi_[k] = static_cast<double>(above_[static_cast<int>(k)]) * per_unit;
+            largest_ = std::max({largest_, std::fabs(lo_[k]), std::fabs(hi_[k])});
         }
     }
     void take(const Vector3& corner) {
-        const Vector3 p = minus(corner, hull_.origin);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double c = (axis_[k][0] * p[0] + axis_[k][1] * p[1]) + axis_[k][2] * p[2];
-            lo_[k] = c < lo_[k] ? c : lo_[k];
-            hi_[k] = c > hi_[k] ? c : hi_[k];
-        }
+        const auto part = [&](std::size_t k) {
+            return along_[k] * all_lanes(static_cast<float>(corner[k] - hull_.origin[k]));
+        };
+        const Float4 c = (part(0) + part(1)) + part(2);
+        above_ = larger(c, above_);
+        below_ = larger(-c, below_);
     }
 
     void set_box() {
@@ -174,7 +175,7 @@ private:
         }
         Vector3 half{};
         // Samples may be much smaller than the rest.
-        const double slack = (0x1p-48 + 0x1p-48 * largest_) + 2.01 * error_ / hull_.unit;
+        const double slack = (0x1p-48 + 0x1p-21 * largest_) + 2.01 * error_ / hull_.unit;
         for (std::size_t k = 0; k < 3; ++k) {
             const double c = dot(axis_[k], center);
             half[k] = std::max(hi_[k] - c, c - lo_[k]) + slack;
@@ -197,6 +198,9 @@ private:
     LeafHull hull_;
     AreaFrame frame_;
     std::array<Vector3, 3> axis_{};
+    std::array<Float4, 3> along_{};  // by coordinate; lane by axis
+    Float4 above_ = all_lanes(-std::numeric_limits<float>::infinity());
+    Float4 below_ = above_;  // of the negative products
     Vector3 lo_{};
     Vector3 hi_{};
     double error_ = 0;

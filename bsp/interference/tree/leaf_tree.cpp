@@ -9,9 +9,23 @@
 
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/spares.h>
 #include <trisect/kernel/support/work_lock.h>
 
 namespace trisect::detail {
+
+namespace {
+
+struct Division {
+    ObbParts parts;
+    std::vector<std::uint32_t> order;
+
+    [[nodiscard]] std::size_t bytes() const {
+        return parts.bytes() + order.capacity() * sizeof(order[0]);
+    }
+};
+
+}  // namespace
 
 LeafTree::LeafTree(const LeafTriangles& triangles, std::uint32_t count, const Bounds& bounds)
     : triangles_(triangles), order_(count) {
@@ -30,20 +44,23 @@ LeafTree::LeafTree(const LeafTriangles& triangles, std::uint32_t count, const Bo
     radius_ = bound_slack * std::sqrt(square) / unit_ + slack_;
 }
 
-ObbParts LeafTree::parts_of(std::span<const std::uint32_t> triangles) const {
-    std::vector<Vector3> corners(3 * triangles.size());
-    triangles_.put_corners(triangles, corners);
-    const double per_unit = 1 / unit_;  // a power of two
-    for (Vector3& c : corners)
-        for (std::size_t k = 0; k < 3; ++k) c[k] = (c[k] - origin_[k]) * per_unit;
-    return ObbParts(std::move(corners), slack_);
+void LeafTree::put_parts(std::span<const std::uint32_t> triangles, ObbParts& parts) const {
+    const auto put = [&](std::span<Vector3> corners) {
+        triangles_.put_corners(triangles, corners);
+        const double per_unit = 1 / unit_;  // a power of two
+        for (Vector3& c : corners)
+            for (std::size_t k = 0; k < 3; ++k) c[k] = (c[k] - origin_[k]) * per_unit;
+    };
+    parts.assign(static_cast<std::uint32_t>(triangles.size()), slack_, put);
 }
 
 const LeafTree::Node& LeafTree::divide(std::uint32_t begin, std::uint32_t size,
                                        const AreaFrame* frame) const {
     check_stop(size);
     const std::span<std::uint32_t> range = std::span(order_).subspan(begin, size);
-    ObbParts all = parts_of(range);
+    Spare<Division> division;
+    ObbParts& all = division->parts;
+    put_parts(range, all);
     std::array<ObbParts::Part, 4> parts;
     const std::size_t count =
         all.divide(frame != nullptr ? ObbParts::Part{0, size, *frame} : all.whole(), 1, parts);
@@ -54,7 +71,8 @@ const LeafTree::Node& LeafTree::divide(std::uint32_t begin, std::uint32_t size,
         node->begin_[i] = begin + parts[i].begin;
         node->size_[i] = parts[i].size();
     }
-    std::vector<std::uint32_t> order(size);
+    std::vector<std::uint32_t>& order = division->order;
+    order.resize(size);
     for (std::uint32_t i = 0; i < size; ++i) order[i] = range[all.triangle(i)];
     std::ranges::copy(order, range.begin());
     nodes_.push_back(std::move(node));
@@ -84,7 +102,9 @@ const LeafTree::Node& LeafTree::make_below(const Node& node, std::uint32_t lane)
 }
 
 ObbNode LeafTree::boxes_of(std::span<const std::uint32_t> triangles) const {
-    const ObbParts all = parts_of(triangles);
+    Spare<Division> division;
+    ObbParts& all = division->parts;
+    put_parts(triangles, all);
     ObbNode node;
     close_lanes(node, triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) all.put(all.part(i, i + 1), node, i);

@@ -87,7 +87,7 @@ private:
     [[nodiscard]] const Node& make_below(const Node& node, std::uint32_t lane) const;
     [[nodiscard]] const Node& divide(std::uint32_t begin, std::uint32_t size,
                                      const AreaFrame* frame) const;
-    [[nodiscard]] ObbParts parts_of(std::span<const std::uint32_t> triangles) const;
+    void put_parts(std::span<const std::uint32_t> triangles, ObbParts& parts) const;
 
     const LeafTriangles& triangles_;
     std::array<double, 3> origin_{};

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@ namespace {
 
 struct Array {
     std::vector<int> values;
+    [[nodiscard]] std::size_t bytes() const { return values.capacity() * sizeof(int); }
 };
 using Spares = trisect::detail::Spares<Array>;
 
@@ -40,6 +42,21 @@ TEST(Spares, StayWithTheirThread) {
         Spares::give(with_room(20));
     }).join();
     EXPECT_EQ(Spares::take().values.capacity(), 10U);
+}
+
+TEST(Spares, AreGivenBackAtTheEndOfAScope) {
+    std::thread([] {
+        {
+            trisect::detail::Spare<Array> spare;
+            spare->values.reserve(10);
+        }
+        {
+            trisect::detail::Spare<Array> again;
+            EXPECT_EQ((*again).values.capacity(), 10U);
+            again->values.reserve(1U << 19U);  // more than is kept
+        }
+        EXPECT_EQ(Spares::take().values.capacity(), 0U);
+    }).join();
 }
 
 // Destroyed after what the thread keeps, like an object with static lifetime.
