@@ -55,6 +55,7 @@ public:
         if (value_.bytes() <= most_bytes) Spares<T>::give(std::move(value_));
     }
     [[nodiscard]] T* operator->() { return &value_; }
+    [[nodiscard]] const T* operator->() const { return &value_; }
     [[nodiscard]] T& operator*() { return value_; }
 
 private:

@@ -33,12 +33,12 @@ DistanceSearch::DistanceSearch(const Boundary& a, const Pose& pose_a, const Boun
 void DistanceSearch::note(const Candidate& c) {
     if (!(c.bounds.lower <= upper_) || !(c.bounds.lower < limit_)) return;
     upper_ = std::min(upper_, c.bounds.upper);
-    candidates_.push_back(c);
+    arrays_->candidates.push_back(c);
 }
 
 void DistanceSearch::push(float bound, ObbId a, ObbId b) {
-    heap_->entries.push_back({bound, a, b});
-    std::push_heap(heap_->entries.begin(), heap_->entries.end(), ByBound{});
+    arrays_->heap.push_back({bound, a, b});
+    std::push_heap(arrays_->heap.begin(), arrays_->heap.end(), ByBound{});
 }
 
 void DistanceSearch::expand(const Entry& e) {
@@ -78,9 +78,9 @@ void DistanceSearch::expand(const Entry& e) {
 
 void DistanceSearch::run(double limit, bool stop,
                          std::optional<std::array<std::uint32_t, 2>> start) {
-    std::vector<Entry>& heap = heap_->entries;
+    std::vector<Entry>& heap = arrays_->heap;
     heap.clear();
-    candidates_.clear();
+    arrays_->candidates.clear();
     limit_ = limit;
     upper_ = std::numeric_limits<double>::infinity();
     if (start) {
@@ -103,12 +103,13 @@ void DistanceSearch::run(double limit, bool stop,
 }
 
 void DistanceSearch::finish() {
-    std::erase_if(candidates_, [this](const Candidate& c) { return c.bounds.lower > upper_; });
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& c, const Candidate& d) {
-        return c.bounds.upper < d.bounds.upper;
-    });
+    std::erase_if(arrays_->candidates,
+                  [this](const Candidate& c) { return c.bounds.lower > upper_; });
+    std::sort(
+        arrays_->candidates.begin(), arrays_->candidates.end(),
+        [](const Candidate& c, const Candidate& d) { return c.bounds.upper < d.bounds.upper; });
     lower_ = std::numeric_limits<double>::infinity();
-    for (const Candidate& c : candidates_) lower_ = std::min(lower_, c.bounds.lower);
+    for (const Candidate& c : arrays_->candidates) lower_ = std::min(lower_, c.bounds.lower);
 }
 
 }  // namespace trisect::detail

@@ -42,7 +42,7 @@ public:
     [[nodiscard]] double lower() const { return lower_; }
     [[nodiscard]] double upper() const { return upper_; }
     /// All pairs that may be the closest, the one with the least upper bound first.
-    [[nodiscard]] const std::vector<Candidate>& candidates() const { return candidates_; }
+    [[nodiscard]] const std::vector<Candidate>& candidates() const { return arrays_->candidates; }
     [[nodiscard]] const DistanceCounters& counters() const { return counters_; }
 
 private:
@@ -51,9 +51,12 @@ private:
         ObbId a;
         ObbId b;
     };
-    struct Heap {
-        std::vector<Entry> entries;
-        [[nodiscard]] std::size_t bytes() const { return entries.capacity() * sizeof(Entry); }
+    struct Arrays {
+        std::vector<Entry> heap;
+        std::vector<Candidate> candidates;
+        [[nodiscard]] std::size_t bytes() const {
+            return heap.capacity() * sizeof(Entry) + candidates.capacity() * sizeof(Candidate);
+        }
     };
     [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const {
         return pairs_->compare(a, b, std::min(upper_, limit_));
@@ -71,8 +74,7 @@ private:
     double limit_ = 0;
     double lower_ = 0;
     double upper_ = 0;
-    Spare<Heap> heap_;
-    std::vector<Candidate> candidates_;
+    Spare<Arrays> arrays_;
     DistanceCounters counters_;
 };
 

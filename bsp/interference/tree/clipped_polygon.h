@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <trisect/bsp/query/index/index_polygons.h>
+#include <trisect/kernel/support/spares.h>
 
 namespace trisect::detail {
 
@@ -43,6 +44,16 @@ private:
         double error = 0;
     };
 
+    struct Arrays {
+        std::vector<Corner> corners;
+        std::vector<Corner> next;
+        ClippedPolygon result;
+        [[nodiscard]] std::size_t bytes() const {
+            return (corners.capacity() + next.capacity() + result.corners.capacity()) *
+                   sizeof(Corner);
+        }
+    };
+
     void begin(IndexPolygons::Id id);
     [[nodiscard]] bool ends_at(std::size_t axis, std::int64_t wall) const;
     [[nodiscard]] bool clip_by_walls();
@@ -53,10 +64,11 @@ private:
     const IndexPolygons& polygons_;
     double most_error_;
     std::span<const EdgeName> edges_;  // of a fragment
-    std::vector<Corner> corners_;
-    std::vector<Corner> next_;
+    Spare<Arrays> arrays_;
+    std::vector<Corner>& corners_ = arrays_->corners;
+    std::vector<Corner>& next_ = arrays_->next;
+    ClippedPolygon& result_ = arrays_->result;
     bool is_all_ = false;
-    ClippedPolygon result_;
 };
 
 }  // namespace trisect::detail

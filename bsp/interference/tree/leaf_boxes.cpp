@@ -51,6 +51,28 @@ TriangleCorners LeafBoxes::corners_of(std::uint32_t triangle) const {
             source.corner(f, 2).doubles()};
 }
 
+bool LeafBoxes::is_clipped_late(std::uint32_t triangle) const {
+    return (is_whole_ || triangle_[triangle].corners == Triangle::Corners::Source) &&
+           polygons().reaches_out(polygon_of(triangle));
+}
+
+void LeafBoxes::add_parts(std::uint32_t triangle, std::vector<TriangleCorners>& parts) const {
+    if (!is_clipped_late(triangle)) {
+        parts.push_back(corners_of(triangle));
+        return;
+    }
+    PolygonClipper clipper(polygons(), most_error());
+    const auto& corners = clipper.clip(polygon_of(triangle)).corners;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        parts.push_back({corners[0], corners[i - 1], corners[i]});
+}
+
+bool LeafBoxes::has_parts() const {
+    std::vector<TriangleCorners> parts;
+    for (std::uint32_t t = 0; t < triangle_count() && parts.empty(); ++t) add_parts(t, parts);
+    return !parts.empty();
+}
+
 void LeafBoxes::put_corners(std::span<const std::uint32_t> triangles,
                             std::span<std::array<double, 3>> corners) const {
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -60,14 +82,11 @@ void LeafBoxes::put_corners(std::span<const std::uint32_t> triangles,
 }
 
 double LeafBoxes::most_error() const {
-    const IndexPolygons& all = polygons();
+    if (polygons().size() == 0) return 0;
+    const DoubleBox box = polygons().bounds();
     double largest = 0;
-    const auto take = [&largest](const DoubleBox& box) {
-        for (std::size_t k = 0; k < 3; ++k)
-            largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
-    };
-    for (Id id = 0; id < all.size(); ++id)
-        take(all.is_unbounded(id) ? all.bounds(all.cell().lattice_box()) : all.bounds(id));
+    for (std::size_t k = 0; k < 3; ++k)
+        largest = std::max({largest, std::fabs(box.lo[k]), std::fabs(box.hi[k])});
     return clipped_error * largest;
 }
 
@@ -81,14 +100,39 @@ struct LeafBoxes::Triangles {
     }
 };
 
+std::array<LeafBoxes::Extent, 3> LeafBoxes::extents() const {
+    const IndexPolygons& all = polygons();
+    std::array<Extent, 3> out;
+    if (all.size() == 0) return out;
+    const DoubleBox box = all.bounds();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double lo = rounded_position(all.cell().lo[k]);
+        const double hi = rounded_position(all.cell().hi[k]);
+        out[k] = {lo, hi, 0.25 * (std::min(hi, box.hi[k]) - std::max(lo, box.lo[k]))};
+    }
+    return out;
+}
+
+// Boxes are hardly larger for it then. Of a long triangle most may be beyond, and cut away there.
+bool LeafBoxes::reaches_out_little(Id id, const std::array<Extent, 3>& extents) const {
+    const DoubleBox box = polygons().bounds(id);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const bool is_out = box.lo[k] < extents[k].lo || box.hi[k] > extents[k].hi;
+        if (is_out && !(box.hi[k] - box.lo[k] <= extents[k].little)) return false;
+    }
+    return true;
+}
+
 void LeafBoxes::take_polygons() {
     const IndexPolygons& all = polygons();
+    const std::array<Extent, 3> walls = extents();
     PolygonClipper clipper(all, most_error());
     Spare<Triangles> taken;
     taken->triangle.clear();
     taken->clipped.clear();
     for (Id id = 0; id < all.size(); ++id) {
-        if (all.is_triangle(id) && !all.reaches_out(id)) {
+        if (all.is_triangle(id) && (!all.reaches_out(id) || reaches_out_little(id, walls))) {
+            if (all.reaches_out(id)) error_ = std::max(error_, most_error());
             taken->triangle.emplace_back(id, Triangle::Corners::Source, 0);
         } else {
             take_polygon(id, clipper.clip(id), *taken);
@@ -153,6 +197,7 @@ bool LeafBoxes::is_alone_at(Id polygon, const std::array<double, 3>& point, doub
             !(point[k] + slack < hi - last_place * std::fabs(hi)))
             return false;
     }
+    // Of triangles that are clipped late, what is out of the cell is far.
     bool is_alone = true;
     for_triangles_near(*tree_, point, reach, [&](std::uint32_t triangle) {
         if (polygon_of(triangle) == polygon) return false;
@@ -165,8 +210,14 @@ bool LeafBoxes::is_alone_at(Id polygon, const std::array<double, 3>& point, doub
 std::vector<PolygonId> LeafBoxes::polygons_near(const std::array<double, 3>& point, double reach,
                                                 bool turned) const {
     std::vector<PolygonId> out;
+    std::vector<TriangleCorners> parts;
     for_triangles_near(*tree_, point, reach, [&](std::uint32_t triangle) {
+        parts.clear();
         if (!is_certainly_beyond(corners_of(triangle), error_, point, reach))
+            add_parts(triangle, parts);
+        if (!std::ranges::all_of(parts, [&](const TriangleCorners& c) {
+                return is_certainly_beyond(c, error_, point, reach);
+            }))
             out.push_back({&leaf_, polygon_of(triangle), turned});
         return false;
     });

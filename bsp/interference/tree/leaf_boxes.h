@@ -30,12 +30,14 @@ struct BoundaryPoint {
     static constexpr std::uint8_t none = 3;
 };
 
-/// The polygons of a leaf of the cell tree, clipped to its cell, as triangles. In the open cell
-/// these are the boundary; so the triangles of all leaves of a tree are all of it, and have at most
-/// points of their sides in common. Threads may share it.
+/// The polygons of a leaf of the cell tree as triangles, in boxes. Their parts in the open cell are
+/// the boundary; so the parts of all leaves of a tree are all of it, and have at most points of
+/// their sides in common. Threads may share it.
 ///
-/// Corners of sources and of fragments are not copied. 12 bytes a triangle, 24 more for each corner
-/// of a polygon that was clipped, and the boxes.
+/// A triangle of a source that reaches out of the cell by little is in the boxes as a whole, and
+/// clipped when somebody comes to it; other polygons are clipped at once. Corners of sources and of
+/// fragments are not copied. 4 bytes a triangle and the boxes, where all are triangles of sources;
+/// otherwise 8 more, and 24 for each corner of a polygon that was clipped at once.
 class LeafBoxes final : public LeafTriangles {
 public:
     using Id = IndexPolygons::Id;
@@ -53,7 +55,14 @@ public:
     [[nodiscard]] Id polygon_of(std::uint32_t triangle) const {
         return is_whole_ ? triangle : triangle_[triangle].polygon;
     }
+    /// As a whole.
     [[nodiscard]] TriangleCorners corners_of(std::uint32_t triangle) const;
+    /// Whether its part in the cell is still to be found.
+    [[nodiscard]] bool is_clipped_late(std::uint32_t triangle) const;
+    /// Appends its part in the cell, as triangles: itself, unless it is clipped late.
+    void add_parts(std::uint32_t triangle, std::vector<TriangleCorners>& parts) const;
+    /// Whether there is boundary in the cell.
+    [[nodiscard]] bool has_parts() const;
     /// Whether nothing but one polygon is within `reach`, in each coordinate, of a point, and that
     /// certainly; false near the walls of the cell.
     [[nodiscard]] bool is_alone_at(Id polygon, const std::array<double, 3>& point,
@@ -71,7 +80,7 @@ private:
     // Of a polygon; where its corners are.
     struct Triangle {
         enum class Corners : std::uint32_t {
-            Source,    // those of the source's triangle
+            Source,    // those of the source's triangle, which may reach out of the cell
             Fragment,  // the first of the fragment, number at - 1 and number `at`
             Strip,     // from `at` on in clipped_
             StripBack  // the same, in the other sense of turning
@@ -85,17 +94,25 @@ private:
             : polygon(id), corners(where), at(place & ((1U << 30U) - 1)) {}
     };
     struct Triangles;
+    // Of what the leaf lists along an axis.
+    struct Extent {
+        double lo = 0;  // walls
+        double hi = 0;
+        double little = 0;
+    };
 
     void put_corners(std::span<const std::uint32_t> triangles,
                      std::span<std::array<double, 3>> corners) const override;
     void take_polygons();
     void take_polygon(Id id, const ClippedPolygon& part, Triangles& all);
+    [[nodiscard]] std::array<Extent, 3> extents() const;
+    [[nodiscard]] bool reaches_out_little(Id id, const std::array<Extent, 3>& extents) const;
     [[nodiscard]] double most_error() const;
     [[nodiscard]] LeafTree::Bounds bounds(std::uint32_t count) const;
     [[nodiscard]] std::vector<BoundaryPoint> find_pieces() const;
 
     const IndexedLeaf& leaf_;
-    bool is_whole_ = true;            // the triangles are the polygons
+    bool is_whole_ = true;            // the triangles are the polygons, of sources
     std::vector<Triangle> triangle_;  // if not
     std::vector<std::array<double, 3>> clipped_;
     double error_ = 0;

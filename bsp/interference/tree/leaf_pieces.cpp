@@ -98,9 +98,14 @@ std::vector<BoundaryPoint> LeafBoxes::find_pieces() const {
     if (const Source* const mesh = all.only_source()) return pieces_of_mesh(*mesh);
     std::vector<BoundaryPoint> found(all.size());
     std::vector<bool> enters(all.size(), false);
+    std::vector<TriangleCorners> parts;
     for (std::uint32_t t = 0; t < triangle_count(); ++t) {
         const Id id = polygon_of(t);
-        if (!enters[id]) found[id] = {id, BoundaryPoint::none, corners_of(t)[0]};
+        if (enters[id]) continue;
+        parts.clear();
+        add_parts(t, parts);
+        if (parts.empty()) continue;
+        found[id] = {id, BoundaryPoint::none, parts.front()[0]};
         enters[id] = true;
     }
     // A corner of its source, of each polygon that has one in the cell.

@@ -44,14 +44,15 @@ LeafTree::LeafTree(const LeafTriangles& triangles, std::uint32_t count, const Bo
     radius_ = bound_slack * std::sqrt(square) / unit_ + slack_;
 }
 
-void LeafTree::put_parts(std::span<const std::uint32_t> triangles, ObbParts& parts) const {
-    const auto put = [&](std::span<Vector3> corners) {
-        triangles_.put_corners(triangles, corners);
+template <class Put>
+void LeafTree::put_parts(std::size_t triangles, ObbParts& parts, const Put& put) const {
+    const auto put_in_units = [&](std::span<Vector3> corners) {
+        put(corners);
         const double per_unit = 1 / unit_;  // a power of two
         for (Vector3& c : corners)
             for (std::size_t k = 0; k < 3; ++k) c[k] = (c[k] - origin_[k]) * per_unit;
     };
-    parts.assign(static_cast<std::uint32_t>(triangles.size()), slack_, put);
+    parts.assign(static_cast<std::uint32_t>(triangles), slack_, put_in_units);
 }
 
 const LeafTree::Node& LeafTree::divide(std::uint32_t begin, std::uint32_t size,
@@ -60,7 +61,8 @@ const LeafTree::Node& LeafTree::divide(std::uint32_t begin, std::uint32_t size,
     const std::span<std::uint32_t> range = std::span(order_).subspan(begin, size);
     Spare<Division> division;
     ObbParts& all = division->parts;
-    put_parts(range, all);
+    put_parts(size, all,
+              [&](std::span<Vector3> corners) { triangles_.put_corners(range, corners); });
     std::array<ObbParts::Part, 4> parts;
     const std::size_t count =
         all.divide(frame != nullptr ? ObbParts::Part{0, size, *frame} : all.whole(), 1, parts);
@@ -101,13 +103,20 @@ const LeafTree::Node& LeafTree::make_below(const Node& node, std::uint32_t lane)
     return made;
 }
 
-ObbNode LeafTree::boxes_of(std::span<const std::uint32_t> triangles) const {
+ObbNode LeafTree::boxes_of(std::span<const TriangleCorners> triangles,
+                           std::span<const std::uint32_t> ends) const {
     Spare<Division> division;
     ObbParts& all = division->parts;
-    put_parts(triangles, all);
+    put_parts(triangles.size(), all, [&](std::span<Vector3> corners) {
+        for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = triangles[i / 3][i % 3];
+    });
     ObbNode node;
-    close_lanes(node, triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) all.put(all.part(i, i + 1), node, i);
+    close_lanes(node, ends.size());
+    std::uint32_t begin = 0;
+    for (std::uint32_t i = 0; i < ends.size(); ++i) {
+        all.put(all.part(begin, ends[i]), node, i);
+        begin = ends[i];
+    }
     return node;
 }
 

@@ -79,15 +79,18 @@ public:
                                                            std::uint32_t lane) const {
         return {order_.data() + node.begin_[lane], node.size_[lane]};
     }
-    /// A box for each of these.
-    [[nodiscard]] ObbNode boxes_of(std::span<const std::uint32_t> triangles) const;
+    /// Boxes around other triangles, as long as they are within the bounds: four groups at most,
+    /// the ends of which are given.
+    [[nodiscard]] ObbNode boxes_of(std::span<const TriangleCorners> triangles,
+                                   std::span<const std::uint32_t> ends) const;
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     [[nodiscard]] const Node& make_below(const Node& node, std::uint32_t lane) const;
     [[nodiscard]] const Node& divide(std::uint32_t begin, std::uint32_t size,
                                      const AreaFrame* frame) const;
-    void put_parts(std::span<const std::uint32_t> triangles, ObbParts& parts) const;
+    template <class Put>
+    void put_parts(std::size_t triangles, ObbParts& parts, const Put& put) const;
 
     const LeafTriangles& triangles_;
     std::array<double, 3> origin_{};

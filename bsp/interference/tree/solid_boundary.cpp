@@ -84,6 +84,7 @@ void SolidBoundary::swap_with(Memory& memory) noexcept {
     memory.leaves.swap(leaves_);
     memory.inner.swap(inner_);
     memory.triangle_of.swap(triangle_of_);
+    memory.clipped.swap(clipped_);
 }
 
 void SolidBoundary::Memory::clear() {
@@ -97,12 +98,13 @@ void SolidBoundary::Memory::clear() {
     leaves.clear();
     inner.clear();
     triangle_of.clear();
+    clipped.clear();
 }
 
 std::size_t SolidBoundary::Memory::bytes() const {
     const auto of = [](const auto& array) { return array.capacity() * sizeof(array[0]); };
     return of(nodes) + of(parent) + of(order) + of(corners) + of(positions) + of(parts) +
-           of(part_of) + of(leaves) + of(inner) + of(triangle_of);
+           of(part_of) + of(leaves) + of(inner) + of(triangle_of) + of(clipped);
 }
 
 // Of a node: its bounds in its cell.
@@ -311,11 +313,15 @@ void SolidBoundary::put_lane(const LeafTree& tree, const ObbNode& from, std::uin
 }
 
 void SolidBoundary::take_node(std::uint32_t leaf, const LeafTree::Node& from, std::uint32_t node) {
-    const LeafTree& tree = leaves_[leaf].boxes->tree();
+    const LeafBoxes& all = *leaves_[leaf].boxes;
+    const LeafTree& tree = all.tree();
     for (std::uint32_t lane = 0; lane < 4 && from.is_used(lane); ++lane) {
         put_lane(tree, from.boxes(), node, lane);
-        if (from.has_few(lane) && tree.triangles(from, lane).size() == 1) {
-            boxes.nodes[node].child[lane] = add_triangle(leaf, tree.triangles(from, lane)[0]);
+        if (from.has_few(lane) && tree.triangles(from, lane).size() == 1 &&
+            !all.is_clipped_late(tree.triangles(from, lane)[0])) {
+            const std::uint32_t triangle = tree.triangles(from, lane)[0];
+            boxes.nodes[node].child[lane] =
+                ObbChild::leaf(add_triangle(leaf, triangle, all.corners_of(triangle)), 1);
         } else {
             boxes.nodes[node].child[lane] =
                 ObbChild::pending(static_cast<std::uint32_t>(inner_.size()));
@@ -324,25 +330,45 @@ void SolidBoundary::take_node(std::uint32_t leaf, const LeafTree::Node& from, st
     }
 }
 
+// Clipped as far as they are still to be. A lane for each part, if there are so few; otherwise for
+// those of each triangle that has any.
 void SolidBoundary::take_few(std::uint32_t leaf, std::span<const std::uint32_t> triangles,
                              std::uint32_t node) {
-    const LeafTree& tree = leaves_[leaf].boxes->tree();
-    const ObbNode each = tree.boxes_of(triangles);
-    for (std::uint32_t lane = 0; lane < triangles.size(); ++lane) {
+    const LeafBoxes& all = *leaves_[leaf].boxes;
+    const auto first = static_cast<std::uint32_t>(triangle_of_.size());
+    clipped_.clear();
+    std::array<std::uint32_t, 4> ends{};
+    std::uint32_t lanes = 0;
+    for (const std::uint32_t triangle : triangles) {
+        const std::size_t before = clipped_.size();
+        all.add_parts(triangle, clipped_);
+        for (std::size_t i = before; i < clipped_.size(); ++i)
+            add_triangle(leaf, triangle, clipped_[i]);
+        if (clipped_.size() != before) ends[lanes++] = static_cast<std::uint32_t>(clipped_.size());
+    }
+    if (clipped_.size() <= 4) {
+        lanes = static_cast<std::uint32_t>(clipped_.size());
+        for (std::uint32_t i = 0; i < lanes; ++i) ends[i] = i + 1;
+    }
+    const LeafTree& tree = all.tree();
+    const ObbNode each = tree.boxes_of(clipped_, std::span(ends).first(lanes));
+    std::uint32_t begin = 0;
+    for (std::uint32_t lane = 0; lane < lanes; ++lane) {
         put_lane(tree, each, node, lane);
-        boxes.nodes[node].child[lane] = add_triangle(leaf, triangles[lane]);
+        boxes.nodes[node].child[lane] = ObbChild::leaf(first + begin, ends[lane] - begin);
+        begin = ends[lane];
     }
 }
 
-ObbChild SolidBoundary::add_triangle(std::uint32_t leaf, std::uint32_t triangle) {
+std::uint32_t SolidBoundary::add_triangle(std::uint32_t leaf, std::uint32_t triangle,
+                                          const TriangleCorners& corners) {
     const auto at = static_cast<std::uint32_t>(positions.size());
-    for (const auto& corner : leaves_[leaf].boxes->corners_of(triangle))
-        positions.push_back(corner);
+    for (const auto& corner : corners) positions.push_back(corner);
     boxes.corners.push_back({at, at + 1, at + 2});
     const auto number = static_cast<std::uint32_t>(triangle_of_.size());
     boxes.order.push_back(number);
     triangle_of_.push_back({leaf, triangle});
-    return ObbChild::leaf(number, 1);
+    return number;
 }
 
 std::uint32_t SolidBoundary::open_all() const {

@@ -42,7 +42,7 @@ public:
     /// Where a triangle is from.
     struct Origin {
         const LeafBoxes* leaf = nullptr;
-        std::uint32_t triangle = 0;  ///< of the leaf
+        std::uint32_t triangle = 0;  ///< of the leaf, as a whole
         bool turned = false;         ///< the leaf is read as that of a complement
 
         [[nodiscard]] PolygonId polygon() const {
@@ -117,6 +117,7 @@ private:
         std::vector<OpenedLeaf> leaves;
         std::vector<Inner> inner;
         std::vector<TriangleOf> triangle_of;
+        std::vector<TriangleCorners> clipped;
 
         void clear();
         [[nodiscard]] std::size_t bytes() const;
@@ -147,15 +148,17 @@ private:
     [[nodiscard]] bool put_box(std::uint32_t node, std::uint32_t lane,
                                const std::array<double, 3>& origin, double unit,
                                const OrientedBox& box);
-    [[nodiscard]] ObbChild add_triangle(std::uint32_t leaf, std::uint32_t triangle);
+    std::uint32_t add_triangle(std::uint32_t leaf, std::uint32_t triangle,
+                               const TriangleCorners& corners);
 
     std::unique_ptr<const IndexBase> base_;
     std::uint32_t dropped_ = 0;  // nodes that are no more
     std::vector<Part> parts_;
     std::vector<std::uint32_t> part_of_;  // of parts_, by the index of an ObbId; or none
     std::vector<OpenedLeaf> leaves_;
-    std::vector<Inner> inner_;             // what is pending below boxes of leaves
-    std::vector<TriangleOf> triangle_of_;  // of leaves, by the numbers here
+    std::vector<Inner> inner_;              // what is pending below boxes of leaves
+    std::vector<TriangleOf> triangle_of_;   // of leaves, by the numbers here
+    std::vector<TriangleCorners> clipped_;  // for one node
 };
 
 }  // namespace trisect::detail

@@ -16,8 +16,13 @@ void for_corners(const LeafBoxes& leaf, const Visit& visit) {
         for (const LatticePoint& p : mesh->mesh().points) visit(p.doubles());
         return;
     }
-    for (std::uint32_t t = 0; t < leaf.triangle_count(); ++t)
-        for (const auto& p : leaf.corners_of(t)) visit(p);
+    std::vector<TriangleCorners> parts;
+    for (std::uint32_t t = 0; t < leaf.triangle_count(); ++t) {
+        parts.clear();
+        leaf.add_parts(t, parts);
+        for (const TriangleCorners& corners : parts)
+            for (const auto& p : corners) visit(p);
+    }
 }
 
 // Tight boxes of points, cell by cell of a grid over all of them.

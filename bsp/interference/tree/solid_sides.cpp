@@ -135,7 +135,7 @@ bool has_boundary(const SolidBoundary::LeafAt& from) {
         const CellNode& n = *at.node;
         if (n.size() == 0) continue;
         if (n.is_leaf()) {
-            if (corner_inside(at) || at.boxed().boxes().triangle_count() != 0) return true;
+            if (corner_inside(at) || at.boxed().boxes().has_parts()) return true;
             continue;
         }
         for (int i = 1; i >= 0; --i) {

@@ -35,6 +35,7 @@ IndexPolygons::IndexPolygons(const PolygonList& list, const Cell& cell) : cell_(
         only_ = source;
         whole_ = source->is_whole();
         size_ = source->facet_count();
+        box_ = source->box();
         return;
     }
     TRISECT_EXPECTS(list.size() < none, "too many polygons for an index");
@@ -60,6 +61,7 @@ void IndexPolygons::add(const PolygonRef& ref) {
                 if (const Source* s = e.plane.source()) whole_ = whole_ && s->is_whole();
     }
     records_.push_back(r);
+    box_.add(r.fragment != triangle && ref.fragment == nullptr ? cell_.lattice_box() : box);
 }
 
 ConvexPolygon IndexPolygons::part(Id id) const {

@@ -104,6 +104,8 @@ public:
     [[nodiscard]] DoubleBox bounds(Id id) const {
         return is_triangle(id) ? triangle_bounds(id) : bounds(box_of(id));
     }
+    /// Contains all polygons, of unbounded ones what is in the cell.
+    [[nodiscard]] DoubleBox bounds() const { return bounds(box_); }
     /// What lies at these positions.
     [[nodiscard]] DoubleBox bounds(const Box& box) const;
 
@@ -138,6 +140,7 @@ private:
     std::vector<Record> records_;
     std::vector<const Fragment*> fragments_;
     Cell cell_;
+    Box box_;
 };
 
 inline DoubleBox IndexPolygons::triangle_bounds(Id id) const {
