@@ -35,7 +35,7 @@ struct BoundaryPoint {
 /// their sides in common. Threads may share it.
 ///
 /// A triangle of a source that reaches out of the cell by little is in the boxes as a whole, and
-/// clipped when somebody comes to it; other polygons are clipped at once. Corners of sources and of
+/// clipped when a walk comes to it; other polygons are clipped at once. Corners of sources and of
 /// fragments are not copied. 4 bytes a triangle and the boxes, where all are triangles of sources;
 /// otherwise 8 more, and 24 for each corner of a polygon that was clipped at once.
 class LeafBoxes final : public LeafTriangles {
