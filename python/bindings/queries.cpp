@@ -38,6 +38,16 @@ std::array<double, 4> plane_of(const py::object& plane) {
 
 // Points ------------------------------------------------------------------------------------------
 
+// What a place is compared with: another place, or a Location or its number, as arrays of locate()
+// have them. Anything else has its own say.
+py::object equals(const Place& place, const py::object& other) {
+    if (py::isinstance<Place>(other)) return py::bool_(place == other.cast<const Place&>());
+    // Arrays have an index slot as well, and compare element by element.
+    if (PyIndex_Check(other.ptr()) == 0 || py::isinstance<py::array>(other))
+        return py::reinterpret_borrow<py::object>(Py_NotImplemented);
+    return py::int_(static_cast<int>(place.location)).attr("__eq__")(py::int_(other));
+}
+
 void bind_place(py::module_& m) {
     bind_enum(m, "Location", "Where a point is with respect to a solid.",
               std::vector<EnumMember>{{"OUTSIDE", static_cast<int>(Location::Outside)},
@@ -45,7 +55,11 @@ void bind_place(py::module_& m) {
                                       {"ON_EDGE", static_cast<int>(Location::OnEdge)},
                                       {"ON_VERTEX", static_cast<int>(Location::OnVertex)},
                                       {"INSIDE", static_cast<int>(Location::Inside)}});
-    py::class_<Place>(m, "Place", "The face, edge or vertex that carries a point.")
+    py::class_<Place>(m, "Place", R"(Where a point is, and the face, edge or vertex that carries it.
+
+Equal to its `Location`, so that ``solid.locate(p) == Location.INSIDE`` says what it seems to say;
+two places are equal if they name the same faces as well.
+)")
         .def_property_readonly(
             "location", [](const Place& p) { return enum_member("Location", p.location); },
             "`Location`")
@@ -56,6 +70,10 @@ void bind_place(py::module_& m) {
             "corner", [](const Place& p) { return to_object(p.corner); },
             "(operand, corner) of a vertex that was a corner of an operand, "
             "else None.")
+        .def("__eq__", &equals, "Whether the other is the same place, or the location of this one.")
+        .def(
+            "__hash__", [](const Place& p) { return static_cast<int>(p.location); },
+            "That of the location, which may be equal.")
         .def("__repr__", [](const Place& p) {
             return "<Place: " + std::string(to_string(p.location)) + " " +
                    std::string(py::repr(faces_of(p))) + ">";
@@ -87,7 +105,7 @@ points : array_like, shape (3,) or (n, 3)
 Returns
 -------
 Place
-    Of one point: with the faces that carry it.
+    Of one point: with the faces that carry it. ``== trisect.Location.INSIDE`` compares it, too.
 ndarray, shape (n,), uint8
     Of many: numbers of `Location`, which ``== trisect.Location.INSIDE`` compares.
 )");

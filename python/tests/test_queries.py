@@ -26,6 +26,23 @@ def test_one_point_is_located_with_its_faces(part, two_boxes):
     assert len(notch.faces) == 3 and notch.corner is not None
 
 
+def test_a_place_compares_with_locations(part):
+    inside, outside = part.locate((0.5, 0.5, 0.5)), part.locate((1.5, 1.5, 1.5))
+    assert inside == Location.INSIDE and Location.INSIDE == inside and inside != Location.OUTSIDE
+    assert outside == Location.OUTSIDE and Location.OUTSIDE == outside and outside != inside
+    assert Location(inside) is Location.INSIDE and inside in {Location.INSIDE}
+    edge = part.locate((2, 0, 0.5))
+    assert edge == part.locate((2, 0, 0.25)) and edge == Location.ON_EDGE
+    other = part.locate((0, 0, 0.5))
+    assert other == Location.ON_EDGE and edge != other
+    # As arrays have them, alone and whole.
+    located = part.locate([(0.5, 0.5, 0.5), (1.5, 1.5, 1.5)])
+    assert inside == located[0] and located[0] == inside and inside != located[1]
+    assert (located == inside).tolist() == [True, False]
+    assert (inside == located).tolist() == [True, False]
+    assert inside != "INSIDE" and inside != None and inside != 4.5  # noqa: E711
+
+
 def test_many_points(part):
     points = np.array([(0.5, 0.5, 0.5), (1.5, 1.5, 1.5), (2, 0.5, 0.5), (2, 0, 0.5), (0, 0, 0)])
     located = part.locate(points)

@@ -29,6 +29,9 @@ v, f, s = c.mesh(sources=True)
 reveal: Fraction = c.exact_volume()
 with trisect.limits(threads=1, progress=lambda seconds, steps: seconds < 3):
     d = trisect.union([a, trisect.Formula(b)])
+place: trisect.Place = b.locate((0.5, 0.5, 0.5))
+inside: bool = place == trisect.Location.INSIDE or trisect.Location.INSIDE == place
+locations = b.locate([(0.5, 0.5, 0.5), (1.5, 0.5, 0.5)]) == trisect.Location.INSIDE
 relation: trisect.Relation = trisect.interfere(a, None, b, np.eye(4)).relation
 '''
 
