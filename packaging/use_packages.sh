@@ -60,6 +60,7 @@ for project in project project_c; do
     cmake --build /work/$project >>/work/$project.log
 done
 project/consumer
+project/from_manifold
 project_c/consumer_c
 python3 /trisect/tests/consumer/readme_test.py /trisect cxx=g++
 

@@ -79,6 +79,7 @@ set(private_headers
     brep/validate/triangle_contact.h
     brep/validate/triangle_tree.h
     brep/validate/twins.h
+    bsp/manifold.h
     bsp/trisect.h
     kernel/plane_value.h
     kernel/triangle_pair.h
@@ -120,9 +121,8 @@ install(
     EXCLUDE_FROM_ALL
 )
 install(
-    FILES ${PROJECT_SOURCE_DIR}/bsp/trisect.h
+    FILES ${PROJECT_SOURCE_DIR}/bsp/manifold.h ${PROJECT_SOURCE_DIR}/bsp/trisect.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect
-    OPTIONAL
 )
 
 install(

@@ -174,7 +174,7 @@ class Check:
         if not what.startswith('trisect/'):
             return None
         header = what.removeprefix('trisect/')
-        if header == 'trisect.h':
+        if header in ('trisect.h', 'manifold.h'):
             return 'a room includes what it uses, not the umbrella'
         if not header.startswith(tuple(f'{layer}/' for layer in LAYERS)):
             return 'the library knows nothing above it'
