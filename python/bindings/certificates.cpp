@@ -168,6 +168,9 @@ A cell is ``("split", (a, b, c, d), other)``, with the part below the plane next
 inside it, where the point, strictly inside the cell, says on which side of it the cell is.
 )");
     bind_triangles(c);
+}
+
+void bind_certify_relation(py::module_& m) {
     m.def(
         "certify_relation",
         [](const Solid& a, const py::object& pose_a, const Solid& b, const py::object& pose_b) {
@@ -248,6 +251,7 @@ DistanceCertificate
 
 void bind_static_certificates(py::module_& m) {
     bind_relation_certificate(m);
+    bind_certify_relation(m);
     bind_distance_certificate(m);
 }
 

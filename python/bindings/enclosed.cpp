@@ -93,6 +93,17 @@ std::vector<KeyFrame> frames_of(const py::object& times, const py::object& rotat
     return frames;
 }
 
+EnclosedMotion turning_motion(const py::object& start, const py::object& axis, double degrees,
+                              const py::object& center, const py::object& shift, double duration) {
+    ConstantTurn turn;
+    turn.axis = point_of(axis, "axis");
+    // The double nearest to the angle in radians is the angle: nothing is exact here.
+    turn.angle = degrees * (std::acos(-1.0) / 180);
+    turn.center = point_of(center, "center");
+    turn.shift = point_of(shift, "shift");
+    return EnclosedMotion::turning(pose_of(start, "start"), turn, duration);
+}
+
 void bind_enclosed_motion_type(py::module_& m) {
     py::class_<EnclosedMotion>(
         m, "EnclosedMotion",
@@ -108,22 +119,11 @@ motion : Motion, optional
 )")
         .def(py::init([](const Motion& motion) { return EnclosedMotion(motion); }),
              py::arg_v("motion", Motion(), "Motion()"))
-        .def_static(
-            "turning",
-            [](const py::object& start, const py::object& axis, double degrees,
-               const py::object& center, const py::object& shift, double duration) {
-                ConstantTurn turn;
-                turn.axis = point_of(axis, "axis");
-                // The double nearest to the angle in radians is the angle: nothing is exact here.
-                turn.angle = degrees * (std::acos(-1.0) / 180);
-                turn.center = point_of(center, "center");
-                turn.shift = point_of(shift, "shift");
-                return EnclosedMotion::turning(pose_of(start, "start"), turn, duration);
-            },
-            py::arg("start"), py::arg("axis"), py::arg("degrees"), py::kw_only(),
-            py::arg("center") = py::make_tuple(0.0, 0.0, 0.0),
-            py::arg("shift") = py::make_tuple(0.0, 0.0, 0.0), py::arg("duration") = 1.0,
-            R"(A turn of constant angular speed, with a straight shift of constant speed.
+        .def_static("turning", &turning_motion, py::arg("start"), py::arg("axis"),
+                    py::arg("degrees"), py::kw_only(),
+                    py::arg("center") = py::make_tuple(0.0, 0.0, 0.0),
+                    py::arg("shift") = py::make_tuple(0.0, 0.0, 0.0), py::arg("duration") = 1.0,
+                    R"(A turn of constant angular speed, with a straight shift of constant speed.
 
 Parameters
 ----------

@@ -68,6 +68,23 @@ void bind_rounding(py::module_& m) {
         });
 }
 
+// One factor for all axes, or one for each.
+Point3d factors_of(const py::object& factor) {
+    const bool is_list = py::isinstance<py::array>(factor) || PySequence_Check(factor.ptr());
+    if (is_list || PyNumber_Check(factor.ptr()) == 0) return point_of(factor, "factor");
+    Point3d factors{};
+    factors.fill(py::float_(factor).cast<double>());
+    return factors;
+}
+
+template <class Map>
+py::object under(const Solid& solid, const Map& map, bool report) {
+    LatticeReport rounding;
+    Solid result = run([&] { return transformed(solid, map, &rounding); });
+    if (!report) return py::cast(std::move(result));
+    return py::make_tuple(std::move(result), rounding);
+}
+
 void bind_maps(py::class_<Solid>& c) {
     c.def(
         "translate",
@@ -97,16 +114,7 @@ degrees : float
     c.def(
         "scale",
         [](const Solid& s, const py::object& factor) {
-            const bool is_list =
-                py::isinstance<py::array>(factor) || PySequence_Check(factor.ptr());
-            const bool is_number = !is_list && PyNumber_Check(factor.ptr()) != 0;
-            Point3d factors{};
-            if (is_number) {
-                factors.fill(py::float_(factor).cast<double>());
-            } else {
-                factors = point_of(factor, "factor");
-            }
-            return moved(s, AffineMap::scaling(factors));
+            return moved(s, AffineMap::scaling(factors_of(factor)));
         },
         py::arg("factor"), R"(The solid scaled from the origin.
 
@@ -123,16 +131,9 @@ factor : float or array_like, shape (3,)
         "The solid mirrored in the coordinate plane perpendicular to 'x', 'y' or 'z'. Exact.");
     c.def(
         "transform",
-        [](const Solid& s, const py::object& map, bool report) -> py::object {
-            LatticeReport rounding;
-            Solid result = py::isinstance<Pose>(map) ? run([&, &pose = map.cast<const Pose&>()] {
-                return transformed(s, pose, &rounding);
-            })
-                                                     : run([&, m = affine_map_of(map, "map")] {
-                                                           return transformed(s, m, &rounding);
-                                                       });
-            if (!report) return py::cast(std::move(result));
-            return py::make_tuple(std::move(result), rounding);
+        [](const Solid& s, const py::object& map, bool report) {
+            if (py::isinstance<Pose>(map)) return under(s, map.cast<const Pose&>(), report);
+            return under(s, affine_map_of(map, "map"), report);
         },
         py::arg("map"), py::kw_only(), py::arg("report") = false,
         R"(The solid under an affine map.
