@@ -28,6 +28,7 @@
 #include <trisect/bsp/assembly/parts/fragment_group.h>
 #include <trisect/bsp/assembly/parts/named_edges.h>
 #include <trisect/bsp/assembly/parts/outline_edges.h>
+#include <trisect/bsp/assembly/traced/outlined_edges.h>
 #include <trisect/bsp/assembly/traced/traced_facets.h>
 #include <trisect/bsp/cells/deferred_leaf.h>
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -99,6 +100,8 @@ private:
     void mark_lists();
     void mark_uncrossed(std::span<const UncrossedFacets> lists);
     void mark_outlines(const NamedOutlines& outlines);
+    void mark_outlined(const UndividedMeshes& meshes);
+    void add_outlined_edges(const UndividedMeshes& meshes);
     void number_facets();
     void make_parts(AssembledLeaf& leaf);
     void make_list_parts(const AssembledLeaf& leaf);
@@ -165,8 +168,13 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
     mark_uncrossed(meshes.uncrossed);
     mark_crossed(*meshes.crossings);
     mark_special(*meshes.crossings);
+    if (meshes.outlined != nullptr) mark_outlined(meshes);
     number_facets();
-    trace_facets(*meshes.crossings, out_, edges_);
+    if (meshes.outlined != nullptr) {
+        add_outlined_edges(meshes);
+    } else {
+        trace_facets(*meshes.crossings, out_, edges_);
+    }
     if (out_.stats.traced_facets == out_.facets.size()) return;
     needs_tree_ = !meshes.crossings->special.empty();
     if (needs_tree_) return;
@@ -424,6 +432,24 @@ void Gatherer::mark_outlines(const NamedOutlines& outlines) {
     }
     for (const NamedOutlines::Edge& e : outlines.edges)
         if (e.from.corner >= 0) (void)table(e.from.planes[0].source());
+}
+
+// Facets come in the order of the operands.
+void Gatherer::mark_outlined(const UndividedMeshes& meshes) {
+    const auto& operands = meshes.crossings->operands;
+    std::size_t slot = 0;
+    for (const OutlinedFacets::Facet& f : meshes.outlined->facets) {
+        while (slot + 1 < operands.size() && operands[slot + 1].first <= f.number) ++slot;
+        FacetMarks& marks = out_.sources[table(meshes.uncrossed[slot].source)];
+        marks.set_present(f.number - operands[slot].first, operands[slot].inside_above);
+        marks.set_worked(f.number - operands[slot].first, operands[slot].inside_above);
+    }
+}
+
+void Gatherer::add_outlined_edges(const UndividedMeshes& meshes) {
+    std::vector<const Source*> sources;
+    for (const UncrossedFacets& list : meshes.uncrossed) sources.push_back(list.source);
+    add_outlined(*meshes.outlined, *meshes.crossings, sources, out_, edges_);
 }
 
 void Gatherer::number_facets() {

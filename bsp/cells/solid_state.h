@@ -14,6 +14,7 @@
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/named_outlines.h>
+#include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/solid.h>
 
@@ -54,12 +55,13 @@ struct UncrossedFacets {
     std::vector<std::uint32_t> facets;  ///< ascending
 };
 
-/// A set of two meshes, or of one and half-spaces, by their facets, without a tree: those that
-/// nothing crosses, and the crossings of all others. Enough for to_mesh() and to_brep().
+/// A set of meshes, or of one and half-spaces, by their facets, without a tree: those that nothing
+/// crosses, and the crossings or the outlines of all others. Enough for to_mesh() and to_brep().
 struct UndividedMeshes {
     std::vector<UncrossedFacets> uncrossed;      ///< of each operand; of a half-space none
-    std::shared_ptr<const Crossings> crossings;  ///< not null
+    std::shared_ptr<const Crossings> crossings;  ///< not null; where there are outlines, no pairs
     std::shared_ptr<const LazyTree> tree;        ///< not null
+    std::shared_ptr<const OutlinedFacets> outlined = nullptr;  ///< of many meshes; else null
 };
 
 /// A set of prisms along one axis, without a tree: facets that are whole, and the rest of the

@@ -18,6 +18,7 @@
 #include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/half_spaces/between_half_spaces.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/contract.h>
 
@@ -169,7 +170,7 @@ constexpr LeafRule by_doubles(std::uint32_t reach, bool (*applies)(const CellVie
 
 using Stats = EvaluateCounters;
 
-constexpr std::size_t formula_rows = 3;
+constexpr std::size_t formula_rows = 4;
 constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
@@ -187,6 +188,11 @@ constexpr std::array all_rules{
          "planes, none through a corner; no work limit",
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
+    Rule{"many meshes",
+         "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, without an index; "
+         "no limits",
+         "uncrossed facets, outlines", &Stats::filtered_leaves,
+         FormulaRule{&are_many_meshes, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",
          &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
     Rule{"share", "one operand is left, and it is embedded",

@@ -11,6 +11,7 @@
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 #include "engines.h"
 
@@ -33,6 +34,7 @@ trisect::Solid evaluate(const std::vector<Operand>& operands, const Expression& 
     for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaf_polygons;
+    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});  // counted by cells
     return trisect::evaluate(engines::formula(expression, solids), options);
 }
 

@@ -73,6 +73,14 @@ public:
         static_cast<void>(relate(facets, {}, true, stats));
         doubtful_ = nullptr;
     }
+    /// relate_all(), with `edges_apart`: of two operands, too, planes in single precision part most
+    /// pairs first. For boundaries that lie close to each other.
+    [[nodiscard]] bool relate_all_by_planes(FilteredFacets& facets, EvaluateStats& stats) {
+        by_planes_ = true;
+        const bool related = relate(facets, {}, true, stats);
+        by_planes_ = false;
+        return related;
+    }
     /// relate_all(), with `edges_apart`, for pairs with at least one marked facet.
     [[nodiscard]] bool relate_marked(FilteredFacets& facets, std::span<const std::uint8_t> marks,
                                      EvaluateStats& stats) {
@@ -136,6 +144,7 @@ private:
     void list_contacts(LeafIndex count);
 
     bool edges_apart_ = false;
+    bool by_planes_ = false;
     Doubtful* doubtful_ = nullptr;  // where such pairs are taken out
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item

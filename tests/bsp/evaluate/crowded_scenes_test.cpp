@@ -15,8 +15,11 @@
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/stop_scope.h>
 
 #include "engines/evaluate_stats.h"
 
@@ -69,6 +72,12 @@ void expect_same(const Solid& result, const Solid& chain) {
     EXPECT_EQ(evaluate(result ^ chain).to_brep().counts().faces, 0U);
 }
 
+// A limit of work is counted by cells.
+Solid by_cells(const Expression& expression, EvaluateStats& stats) {
+    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});
+    return evaluate(expression, {}, &stats);
+}
+
 using Combine = Expression (*)(const Expression& a, const Expression& b);
 
 // All solids by one operation: in one pass, and one after the other.
@@ -80,10 +89,15 @@ void expect_same_as_chain(const std::vector<Solid>& solids, Combine combine) {
         chain = evaluate(combine(chain, solids[i]));
     }
     EvaluateStats stats;
-    const Solid result = evaluate(all, {}, &stats);
+    const Solid result = by_cells(all, stats);
     EXPECT_GT(stats.halved_cells, 0U);
     EXPECT_LT(stats.exact_leaves * 20, stats.filtered_leaves);
     expect_same(result, chain);
+    const Solid without_tree = evaluate(all, {}, &stats);
+    EXPECT_EQ(stats.halved_cells, 0U);
+    EXPECT_EQ(stats.exact_leaves, 0U);
+    EXPECT_FALSE(trisect::detail::state_of(without_tree)->lazy_tree()->is_cut());
+    expect_same(without_tree, chain);
 }
 
 TEST(CrowdedScenes, AreWhatAChainMakes) {
@@ -109,12 +123,27 @@ TEST(CrowdedScenes, PairsAreFew) {
     std::vector<std::uint64_t> pairs;
     for (const int n : {8, 32}) {
         EvaluateStats stats;
-        (void)evaluate(Expression::all_of(spheres(n, 0.02)), {}, &stats);
+        (void)by_cells(Expression::all_of(spheres(n, 0.02)), stats);
         pairs.push_back(stats.pairs_boxes);
         EXPECT_GT(stats.filtered_fragments, 0U);
         EXPECT_LT(stats.exact_leaves * 20, stats.filtered_leaves);
     }
     EXPECT_LT(pairs[1], 8 * pairs[0]);
+}
+
+// Pair by pair as well.
+TEST(CrowdedScenes, PairsAreFewWithoutATree) {
+    for (const bool is_union : {false, true}) {
+        std::vector<std::uint64_t> pairs;
+        for (const int n : {8, 32}) {
+            const std::vector<Solid> solids = spheres(n, 0.02);
+            EvaluateStats stats;
+            (void)evaluate(is_union ? Expression::any_of(solids) : Expression::all_of(solids), {},
+                           &stats);
+            pairs.push_back(stats.pairs_boxes);
+        }
+        EXPECT_LT(pairs[1], 8 * pairs[0]);
+    }
 }
 
 TEST(CrowdedScenes, AreTheSameWithAnyNumberOfThreads) {

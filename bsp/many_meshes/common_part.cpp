@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Two boundaries in general position cross in closed polylines, and only there the side changes on
+// which one lies of the other. So a vertex beside a crossing has a known side, and shares it with
+// all to which it is joined by edges that nothing pierces. What is kept of a facet is bounded by
+// the pieces of its edges on the open side, and by the crossings themselves; of a part in several
+// pieces one may go that nothing crosses. No piece is made that does not bound the result, and an
+// edge that two facets share is pierced in the same vertices.
+
+#include <trisect/bsp/many_meshes/common_part.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/many_meshes/buckets.h>
+#include <trisect/bsp/many_meshes/common_segments.h>
+#include <trisect/bsp/many_meshes/crossed_facets.h>
+#include <trisect/bsp/many_meshes/point_side.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/support/flat_map.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
+// Vertices that are joined.
+class Joined {
+public:
+    explicit Joined(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0U);
+    }
+    [[nodiscard]] std::uint32_t root(std::uint32_t v) {
+        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+        return v;
+    }
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = root(a);
+        b = root(b);
+        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+class CommonPart::Steps {
+public:
+    Steps(const ManyMeshes& meshes, const EvaluateSettings& options)
+        : meshes_(meshes), finder_(meshes, options), segments_(meshes) {}
+
+    [[nodiscard]] bool run(const OutlinedSolid& first, const OutlinedSolid& second,
+                           EvaluateStats& stats) {
+        start(first, second);
+        if (!find_cuts(stats)) return false;
+        for (std::size_t i = 0; i < 2; ++i) {
+            stops_[i].sort(solids_[i]->edges.size());
+            cuts_[i].sort(solids_[i]->facets.size());
+            if (!find_sides(i)) return false;
+        }
+        reserve();
+        keep_parts(0);
+        keep_parts(1);
+        out_.open_far_out = first.open_far_out && second.open_far_out;
+        if (!lines_->empty()) out_.lines.push_back(std::move(lines_));
+        return true;
+    }
+    [[nodiscard]] OutlinedSolid result() { return std::move(out_); }
+
+private:
+    // Where an edge of a part pierces the other solid.
+    struct Stop {
+        std::uint32_t vertex = 0;  // of those that were made
+        bool opens = false;        // what follows along the edge
+        double along = 0;
+    };
+    // A crossing on a part, with what is open on its left.
+    struct Cut {
+        std::uint32_t from = 0;  // vertices that were made
+        std::uint32_t to = 0;
+        const FacetCrossing* line = nullptr;
+    };
+    enum class Side : std::uint8_t { Unknown, Open, Closed };
+
+    void start(const OutlinedSolid& first, const OutlinedSolid& second);
+    [[nodiscard]] bool find_cuts(EvaluateStats& stats);
+    void reserve();
+    void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
+                 const FacetCrossing& line);
+    [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
+                                          const std::array<std::uint32_t, 2>& places);
+    [[nodiscard]] bool is_open_below(std::size_t solid, std::uint32_t place) const {
+        return meshes_.operands->operands[solids_[solid]->facets[place].slot].is_open_below();
+    }
+    [[nodiscard]] bool find_sides(std::size_t solid);
+    [[nodiscard]] bool sort_stops(const OutlinedSolid::Edge& edge, const OutlinedSolid& solid,
+                                  std::span<Stop> stops) const;
+    [[nodiscard]] bool mark_ends(std::size_t solid);
+    [[nodiscard]] bool mark(std::size_t solid, std::uint32_t vertex, Side side);
+    void join_vertices(std::size_t solid, Joined& joined) const;
+    void keep_parts(std::size_t solid);
+    void keep_whole(std::size_t solid, std::uint32_t place);
+    void keep_cut(std::size_t solid, std::uint32_t place);
+    void add_facet(const OutlinedSolid::Facet& f, std::uint32_t first, bool whole);
+    [[nodiscard]] std::uint32_t kept_vertex(std::size_t solid, std::uint32_t v);
+    [[nodiscard]] std::uint32_t kept_made(std::uint32_t v);
+    [[nodiscard]] bool is_open(std::size_t solid, std::uint32_t v) const {
+        return sides_[solid][v] == Side::Open;
+    }
+
+    const ManyMeshes& meshes_;
+    std::array<const OutlinedSolid*, 2> solids_{};
+    CrossedFacetsFinder finder_;
+    CommonSegments segments_;
+    std::unique_ptr<OutlinedSolid::Lines> lines_;
+    std::vector<OutlineVertex> made_;
+    FlatMap made_by_name_;
+    std::array<Buckets<Stop>, 2> stops_;              // by edge
+    std::array<Buckets<Cut>, 2> cuts_;                // by place
+    std::array<std::vector<Side>, 2> sides_;          // by vertex: of the other solid
+    std::array<std::vector<std::uint32_t>, 2> kept_;  // by vertex: its number in the result
+    std::vector<std::uint32_t> kept_made_;
+    OutlinedSolid out_;
+};
+
+void CommonPart::Steps::start(const OutlinedSolid& first, const OutlinedSolid& second) {
+    solids_ = {&first, &second};
+    segments_.start(first, second);
+    made_.clear();
+    made_by_name_.clear();
+    kept_made_.clear();
+    for (std::size_t i = 0; i < 2; ++i) {
+        stops_[i].clear();
+        cuts_[i].clear();
+    }
+    out_ = {};
+}
+
+bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
+    if (!finder_.find(*solids_[0], *solids_[1], stats)) return false;
+    lines_ = std::make_unique<OutlinedSolid::Lines>();
+    lines_->reserve(finder_.pairs().size());  // lines stay where they are
+    for (const CrossedFacets& c : finder_.pairs()) {
+        if (!segments_.find(c.places, c.crossing)) return false;
+        if (segments_.segments().empty()) continue;
+        const FacetCrossing& line = lines_->emplace_back(c.crossing);
+        for (const CommonSegment& s : segments_.segments()) add_cut(c.places, s, line);
+    }
+    return true;
+}
+
+// On the first facet what lies below the second one is to the left of the crossing, on the second
+// one what lies above the first.
+void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
+                                const CommonSegment& segment, const FacetCrossing& line) {
+    const std::array<bool, 2> along{is_open_below(1, places[1]), !is_open_below(0, places[0])};
+    std::array<std::uint32_t, 2> ends{};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const CommonSegment::End& end = segment.ends[k];
+        ends[k] = vertex_at(end, places);
+        const std::size_t owner = end.of_second ? 1 : 0;
+        // Walking on along the edge one comes to the left of what ends there.
+        stops_[owner].add(end.edge, {ends[k], (k == 1) == along[owner], 0});
+    }
+    for (std::size_t i = 0; i < 2; ++i)
+        cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], &line});
+}
+
+// Two facets share the edge.
+std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
+                                           const std::array<std::uint32_t, 2>& places) {
+    const std::size_t owner = end.of_second ? 1 : 0;
+    const OutlinedSolid::Edge& e = solids_[owner]->edges[end.edge];
+    const auto [low, high] = std::minmax(e.from, e.to);
+    const Key128 name{std::uint64_t{low} << 32 | high,
+                      std::uint64_t{places[1 - owner]} << 1 | owner};
+    const auto [number, is_new] =
+        made_by_name_.insert(name, static_cast<std::int32_t>(made_.size()));
+    if (!is_new) return static_cast<std::uint32_t>(number);
+    OutlineVertex& v = made_.emplace_back();
+    v.at = end.at;
+    const std::uint32_t own = solids_[owner]->facets[places[owner]].number;
+    const std::uint32_t other = solids_[1 - owner]->facets[places[1 - owner]].number;
+    if (e.line == nullptr) {
+        v.kind = OutlineVertex::Kind::Pierce;
+        v.which = e.own;
+        v.facets = {own, other, 0};
+    } else {
+        v.kind = OutlineVertex::Kind::Meeting;
+        v.facets = {e.line->facets[0], e.line->facets[1], other};
+    }
+    return static_cast<std::uint32_t>(number);
+}
+
+bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, const OutlinedSolid& solid,
+                                   std::span<Stop> stops) const {
+    if (stops.size() < 2) return true;
+    const Approximation& a = solid.vertices[edge.from].at;
+    const Approximation& b = solid.vertices[edge.to].at;
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (std::fabs(b.c[k] - a.c[k]) > std::fabs(b.c[axis] - a.c[axis])) axis = k;
+    const double way = b.c[axis] > a.c[axis] ? 1 : -1;
+    for (Stop& s : stops) s.along = way * made_[s.vertex].at.c[axis];
+    std::ranges::sort(stops, {}, &Stop::along);
+    for (std::size_t i = 1; i < stops.size(); ++i)
+        if (!(stops[i].along - stops[i - 1].along >
+              bound_slack *
+                  (made_[stops[i].vertex].at.error + made_[stops[i - 1].vertex].at.error)))
+            return false;
+    return true;
+}
+
+bool CommonPart::Steps::mark(std::size_t solid, std::uint32_t vertex, Side side) {
+    Side& known = sides_[solid][vertex];
+    if (known != Side::Unknown) return known == side;
+    known = side;
+    return true;
+}
+
+// Of the edges that are pierced.
+bool CommonPart::Steps::mark_ends(std::size_t solid) {
+    const OutlinedSolid& s = *solids_[solid];
+    for (std::uint32_t e = 0; e < s.edges.size(); ++e) {
+        if (!stops_[solid].has(e)) continue;
+        const std::span<Stop> stops = stops_[solid].of(e);
+        if (!sort_stops(s.edges[e], s, stops)) return false;
+        for (std::size_t i = 1; i < stops.size(); ++i)
+            if (stops[i].opens == stops[i - 1].opens) return false;
+        if (!mark(solid, s.edges[e].from, stops.front().opens ? Side::Closed : Side::Open) ||
+            !mark(solid, s.edges[e].to, stops.back().opens ? Side::Open : Side::Closed))
+            return false;
+    }
+    return true;
+}
+
+void CommonPart::Steps::join_vertices(std::size_t solid, Joined& joined) const {
+    const OutlinedSolid& s = *solids_[solid];
+    for (std::uint32_t e = 0; e < s.edges.size(); ++e)
+        if (!stops_[solid].has(e)) joined.join(s.edges[e].from, s.edges[e].to);
+}
+
+// Of all vertices.
+bool CommonPart::Steps::find_sides(std::size_t solid) {
+    const OutlinedSolid& s = *solids_[solid];
+    std::vector<Side>& sides = sides_[solid];
+    sides.assign(s.vertices.size(), Side::Unknown);
+    if (!mark_ends(solid)) return false;
+    Joined joined(s.vertices.size());
+    join_vertices(solid, joined);
+    for (std::uint32_t v = 0; v < sides.size(); ++v)
+        if (sides[v] != Side::Unknown && !mark(solid, joined.root(v), sides[v])) return false;
+    for (std::uint32_t v = 0; v < sides.size(); ++v) {
+        const std::uint32_t root = joined.root(v);
+        if (sides[root] == Side::Unknown) {
+            const auto open =
+                is_open_at(s.vertices[root].at, *solids_[1 - solid], segments_, 1 - solid);
+            if (!open) return false;
+            sides[root] = *open ? Side::Open : Side::Closed;
+        }
+        if (sides[v] == Side::Unknown) sides[v] = sides[root];
+        if (sides[v] != sides[root]) return false;
+    }
+    return true;
+}
+
+void CommonPart::Steps::reserve() {
+    const auto both = [&](auto size) { return size(*solids_[0]) + size(*solids_[1]); };
+    const std::size_t facets = both([](const OutlinedSolid& s) { return s.facets.size(); });
+    out_.facets.reserve(facets);
+    out_.boxes.reserve(facets);
+    out_.edges.reserve(both([](const OutlinedSolid& s) { return s.edges.size(); }) +
+                       4 * made_.size());
+    out_.vertices.reserve(both([](const OutlinedSolid& s) { return s.vertices.size(); }) +
+                          made_.size());
+}
+
+std::uint32_t CommonPart::Steps::kept_vertex(std::size_t solid, std::uint32_t v) {
+    std::uint32_t& number = kept_[solid][v];
+    if (number != none) return number;
+    number = static_cast<std::uint32_t>(out_.vertices.size());
+    out_.vertices.push_back(solids_[solid]->vertices[v]);
+    return number;
+}
+
+std::uint32_t CommonPart::Steps::kept_made(std::uint32_t v) {
+    std::uint32_t& number = kept_made_[v];
+    if (number != none) return number;
+    number = static_cast<std::uint32_t>(out_.vertices.size());
+    out_.vertices.push_back(made_[v]);
+    return number;
+}
+
+void CommonPart::Steps::add_facet(const OutlinedSolid::Facet& f, std::uint32_t first, bool whole) {
+    const auto count = static_cast<std::uint32_t>(out_.edges.size()) - first;
+    if (count == 0) return;
+    out_.facets.push_back({f.number, f.slot, first, count, whole});
+    OutlineBox& box = out_.boxes.emplace_back(OutlineBox::none());
+    for (std::uint32_t e = first; e < first + count; ++e)
+        box.add(out_.vertices[out_.edges[e].from].at);
+    out_.box.add(box);
+}
+
+void CommonPart::Steps::keep_whole(std::size_t solid, std::uint32_t place) {
+    const OutlinedSolid& s = *solids_[solid];
+    const OutlinedSolid::Facet& f = s.facets[place];
+    const auto first = static_cast<std::uint32_t>(out_.edges.size());
+    for (const OutlinedSolid::Edge& e : s.edges_of(f))
+        out_.edges.push_back({kept_vertex(solid, e.from), kept_vertex(solid, e.to), e.line, e.own});
+    add_facet(f, first, true);
+}
+
+void CommonPart::Steps::keep_cut(std::size_t solid, std::uint32_t place) {
+    const OutlinedSolid& s = *solids_[solid];
+    const OutlinedSolid::Facet& f = s.facets[place];
+    const auto first = static_cast<std::uint32_t>(out_.edges.size());
+    for (std::uint32_t e = f.first; e < f.first + f.count; ++e) {
+        const OutlinedSolid::Edge& edge = s.edges[e];
+        bool open = is_open(solid, edge.from);
+        std::uint32_t at = open ? kept_vertex(solid, edge.from) : none;
+        for (const Stop& stop : stops_[solid].of(e)) {
+            const std::uint32_t next = kept_made(stop.vertex);
+            if (open) out_.edges.push_back({at, next, edge.line, edge.own});
+            at = next;
+            open = stop.opens;
+        }
+        if (open) out_.edges.push_back({at, kept_vertex(solid, edge.to), edge.line, edge.own});
+    }
+    for (const Cut& c : cuts_[solid].of(place))
+        out_.edges.push_back({kept_made(c.from), kept_made(c.to), c.line, -1});
+    add_facet(f, first, false);
+}
+
+void CommonPart::Steps::keep_parts(std::size_t solid) {
+    const OutlinedSolid& s = *solids_[solid];
+    kept_[solid].assign(s.vertices.size(), none);
+    kept_made_.resize(made_.size(), none);
+    for (std::uint32_t f = 0; f < s.facets.size(); ++f) {
+        if (cuts_[solid].has(f) || !s.facets[f].whole) {
+            keep_cut(solid, f);
+        } else if (is_open(solid, s.edges[s.facets[f].first].from)) {
+            keep_whole(solid, f);
+        }
+    }
+}
+
+CommonPart::CommonPart(const ManyMeshes& meshes, const EvaluateSettings& options)
+    : steps_(std::make_unique<Steps>(meshes, options)) {}
+
+CommonPart::~CommonPart() = default;
+
+std::optional<OutlinedSolid> CommonPart::of(OutlinedSolid first, OutlinedSolid second,
+                                            EvaluateStats& stats) {
+    if (!steps_->run(first, second, stats)) return std::nullopt;
+    OutlinedSolid out = steps_->result();
+    for (OutlinedSolid* s : {&first, &second})
+        for (auto& lines : s->lines) out.lines.push_back(std::move(lines));
+    return out;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CommonPart: the intersection of two outlined solids.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+
+namespace trisect::detail {
+
+/// Keeps its memory from one intersection to the next.
+class CommonPart {
+public:
+    CommonPart(const ManyMeshes& meshes, const EvaluateSettings& options);
+    ~CommonPart();
+    CommonPart(const CommonPart&) = delete;
+    CommonPart& operator=(const CommonPart&) = delete;
+
+    /// What both leave open. Nothing when they are not in general position, or doubles cannot
+    /// decide. O(n log n) where facets meet few others.
+    [[nodiscard]] std::optional<OutlinedSolid> of(OutlinedSolid first, OutlinedSolid second,
+                                                  EvaluateStats& stats);
+
+private:
+    class Steps;
+    std::unique_ptr<Steps> steps_;
+};
+
+}  // namespace trisect::detail

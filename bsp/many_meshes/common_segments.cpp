@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The segment of two whole facets is known, with the edges that end it. What a part has of it
+// follows from the passages of the part's edges through the plane of the other facet: they are
+// where the ends of an edge lie on different sides of that plane, and the sides say whether the
+// line comes into the part there. An edge of the part lies in an edge of its facet, which ends the
+// segment or lies beyond it, or in a segment with an earlier cutter; there the point comes from the
+// ends of that segment, which are nearly as good as corners, and not from those of the edge. So
+// errors do not grow from step to step.
+//
+// All that doubles decide here are sides of vertices, and orders of points along a line.
+
+#include <trisect/bsp/many_meshes/common_segments.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <trisect/bsp/cells/trace/interpolation.h>
+#include <trisect/kernel/number/error_bounds.h>
+
+namespace trisect::detail {
+
+void CommonSegments::start(const OutlinedSolid& first, const OutlinedSolid& second) {
+    solids_ = {&first, &second};
+    for (std::size_t i = 0; i < 2; ++i) {
+        planes_[i].resize(solids_[i]->facets.size());
+        for (FilteredPlane& p : planes_[i]) p.bound = -1;
+    }
+}
+
+const FilteredPlane& CommonSegments::plane(std::size_t solid, std::uint32_t place) {
+    FilteredPlane& p = planes_[solid][place];
+    if (p.bound >= 0) return p;
+    const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
+    const std::uint32_t facet = f.number - meshes_.operands->operands[f.slot].first;
+    p = FilteredFacets::plane_of(meshes_.corners(f.slot, facet), meshes_.extent);
+    return p;
+}
+
+bool CommonSegments::find(const std::array<std::uint32_t, 2>& places,
+                          const FacetCrossing& crossing) {
+    crossing_ = &crossing;
+    segments_.clear();
+    passages_.clear();
+    inside_.clear();
+    const std::array facets{&solids_[0]->facets[places[0]], &solids_[1]->facets[places[1]]};
+    if (facets[0]->whole && facets[1]->whole) return walk(facets);
+    for (std::size_t i = 0; i < 2; ++i)
+        if (!facets[i]->whole && misses(solids_[i]->boxes[places[i]])) return true;
+    set_way();
+    for (std::size_t i = 0; i < 2; ++i)
+        if (!facets[i]->whole && !list_passages(i, *facets[i], plane(1 - i, places[1 - i])))
+            return false;
+    return sort_inside() && walk(facets);
+}
+
+// Whether the crossing surely has nothing in a box.
+bool CommonSegments::misses(const OutlineBox& box) const {
+    OutlineBox own = OutlineBox::none();
+    for (const FacetCrossing::End& end : crossing_->ends) own.add(end.at);
+    return !own.meets(box);
+}
+
+// Along which axis the crossing is longest.
+void CommonSegments::set_way() {
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double step = crossing_->ends[1].at.c[k] - crossing_->ends[0].at.c[k];
+        if (k > 0 && std::fabs(step) <= std::fabs(longest)) continue;
+        axis_ = k;
+        longest = step;
+    }
+    way_ = longest > 0 ? 1 : -1;
+}
+
+// To the left of the crossing is what lies below the second facet for the first one, and above the
+// first one for the second one. An edge has the part on its left, so the crossing leaves the part
+// where the edge comes to its left.
+bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
+                                   const FilteredPlane& other) {
+    const OutlinedSolid& s = *solids_[solid];
+    for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
+        const OutlinedSolid::Edge& edge = s.edges[e];
+        const int from = other.sign(s.vertices[edge.from].at);
+        const int to = other.sign(s.vertices[edge.to].at);
+        if (from == 0 || to == 0) return false;
+        if (from == to) continue;
+        Passage p;
+        p.of_second = solid == 1;
+        p.enters = (to > 0) == (solid == 0);
+        p.edge = e;
+        if (!(edge.line == nullptr ? place_own(p, edge.own) : place_on_line(p, *edge.line, other)))
+            return false;
+        (p.where == Passage::Where::Inside ? inside_ : passages_).push_back(p);
+    }
+    return true;
+}
+
+// Where the facet's own edge does not end the crossing it is beyond its end.
+bool CommonSegments::place_own(Passage& p, std::int8_t own) const {
+    p.where = p.enters ? Passage::Where::Before : Passage::Where::Behind;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const FacetCrossing::End& end = crossing_->ends[k];
+        if (end.of_second != p.of_second || end.edge != own) continue;
+        p.where = k == 0 ? Passage::Where::Start : Passage::Where::End;
+        return p.enters == (k == 0);
+    }
+    return true;
+}
+
+// An end at an edge of the facet itself is beyond all that its cutters cut.
+bool CommonSegments::place_on_line(Passage& p, const FacetCrossing& line,
+                                   const FilteredPlane& other) const {
+    const Approximation& u = line.ends[0].at;
+    const Approximation& w = line.ends[1].at;
+    const double at_u = other.value(u.c);
+    const double at_w = other.value(w.c);
+    if ((at_u > 0) == (at_w > 0) ||
+        !interpolate(u, at_u, w, at_w, other.error(u) + other.error(w), p.at))
+        return false;
+    p.along = way_ * p.at.c[axis_];
+    p.where = Passage::Where::Inside;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const FacetCrossing::End& end = crossing_->ends[k];
+        if (end.of_second == p.of_second) continue;
+        const double gap = p.along - way_ * end.at.c[axis_];
+        if (!(std::fabs(gap) > bound_slack * (p.at.error + end.at.error))) return false;
+        if (k == 0 && gap < 0) p.where = Passage::Where::Before;
+        if (k == 1 && gap > 0) p.where = Passage::Where::Behind;
+    }
+    return true;
+}
+
+bool CommonSegments::sort_inside() {
+    std::ranges::sort(inside_, {}, &Passage::along);
+    for (std::size_t i = 1; i < inside_.size(); ++i)
+        if (!(inside_[i].along - inside_[i - 1].along >
+              bound_slack * (inside_[i].at.error + inside_[i - 1].at.error)))
+            return false;
+    return true;
+}
+
+// Whether a part has what follows the crossing's first end.
+bool CommonSegments::begin_inside(std::size_t solid, const OutlinedSolid::Facet& facet,
+                                  bool& inside) const {
+    int depth = facet.whole ? 1 : 0;
+    for (const Passage& p : passages_)
+        if (p.of_second == (solid == 1) && p.where <= Passage::Where::Start)
+            depth += p.enters ? 1 : -1;
+    inside = depth == 1;
+    return depth == 0 || depth == 1;
+}
+
+bool CommonSegments::end_of_crossing(std::size_t k, CommonSegment::End& out,
+                                     const OutlinedSolid::Facet& owner) const {
+    const FacetCrossing::End& end = crossing_->ends[k];
+    out.at = end.at;
+    out.of_second = end.of_second;
+    if (owner.whole) {
+        out.edge = owner.first + static_cast<std::uint32_t>(end.edge);
+        return true;
+    }
+    const auto where = k == 0 ? Passage::Where::Start : Passage::Where::End;
+    const auto p = std::ranges::find_if(passages_, [&](const Passage& q) {
+        return q.of_second == end.of_second && q.where == where;
+    });
+    if (p == passages_.end()) return false;
+    out.edge = p->edge;
+    return true;
+}
+
+bool CommonSegments::walk(const std::array<const OutlinedSolid::Facet*, 2>& facets) {
+    std::array<bool, 2> in{};
+    for (std::size_t i = 0; i < 2; ++i)
+        if (!begin_inside(i, *facets[i], in[i])) return false;
+    const auto owner = [&](std::size_t k) -> const OutlinedSolid::Facet& {
+        return *facets[crossing_->ends[k].of_second ? 1 : 0];
+    };
+    if (in[0] && in[1] && !end_of_crossing(0, segments_.emplace_back().ends[0], owner(0)))
+        return false;
+    for (const Passage& p : inside_) {
+        bool& own = in[p.of_second ? 1 : 0];
+        if (own == p.enters) return false;
+        const bool was = in[0] && in[1];
+        own = p.enters;
+        const bool is = in[0] && in[1];
+        if (was == is) continue;
+        if (is) segments_.emplace_back();
+        segments_.back().ends[is ? 0 : 1] = {p.at, p.edge, p.of_second};
+    }
+    return !(in[0] && in[1]) || end_of_crossing(1, segments_.back().ends[1], owner(1));
+}
+
+}  // namespace trisect::detail

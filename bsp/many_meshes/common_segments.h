@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CommonSegments: segments that the parts of two crossing facets have in common.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+
+namespace trisect::detail {
+
+/// A part of the segment of two crossing facets.
+struct CommonSegment {
+    /// An edge of one of the parts pierces the other part.
+    struct End {
+        Approximation at;
+        std::uint32_t edge = 0;  ///< of the solid whose edge it is
+        bool of_second = false;
+    };
+    std::array<End, 2> ends;  ///< in the direction of the crossing's
+};
+
+/// Facets of two solids, with their planes, one crossing after the other; keeps its memory.
+class CommonSegments {
+public:
+    explicit CommonSegments(const ManyMeshes& meshes) : meshes_(meshes) {}
+
+    /// The solids of all that follows.
+    void start(const OutlinedSolid& first, const OutlinedSolid& second);
+    /// False when doubles cannot decide. \pre the facets at these places cross so
+    [[nodiscard]] bool find(const std::array<std::uint32_t, 2>& places,
+                            const FacetCrossing& crossing);
+    /// In their order along the crossing.
+    [[nodiscard]] std::span<const CommonSegment> segments() const { return segments_; }
+    /// Of one of the solids.
+    [[nodiscard]] const FilteredPlane& plane(std::size_t solid, std::uint32_t place);
+
+private:
+    /// Where an edge of a part meets the line of the crossing.
+    struct Passage {
+        /// Before the crossing's segment, at its first end, inside, at its last end, behind it.
+        enum class Where : std::uint8_t { Before, Start, Inside, End, Behind };
+        Where where = Where::Before;
+        bool of_second = false;
+        bool enters = false;  ///< the part lies behind it
+        std::uint32_t edge = 0;
+        double along = 0;
+        Approximation at;
+    };
+    [[nodiscard]] bool misses(const OutlineBox& box) const;
+    void set_way();
+    [[nodiscard]] bool list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
+                                     const FilteredPlane& other);
+    [[nodiscard]] bool place_own(Passage& p, std::int8_t own) const;
+    [[nodiscard]] bool place_on_line(Passage& p, const FacetCrossing& line,
+                                     const FilteredPlane& other) const;
+    [[nodiscard]] bool begin_inside(std::size_t solid, const OutlinedSolid::Facet& facet,
+                                    bool& inside) const;
+    [[nodiscard]] bool sort_inside();
+    [[nodiscard]] bool walk(const std::array<const OutlinedSolid::Facet*, 2>& facets);
+    [[nodiscard]] bool end_of_crossing(std::size_t k, CommonSegment::End& out,
+                                       const OutlinedSolid::Facet& owner) const;
+
+    const ManyMeshes& meshes_;
+    std::array<const OutlinedSolid*, 2> solids_{};
+    std::array<std::vector<FilteredPlane>, 2> planes_;  // by place, where they were asked for
+    std::vector<CommonSegment> segments_;
+    // Of one crossing:
+    const FacetCrossing* crossing_ = nullptr;
+    std::size_t axis_ = 0;  // along which the segment is longest, and which way
+    double way_ = 1;
+    std::vector<Passage> passages_;
+    std::vector<Passage> inside_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Both lists are divided by planes across the axes, down to few pairs, and compared there in
+// doubles. Facets that are long beside a cell are listed with the box of what lies in it, and not
+// where that is nothing.
+
+#include <trisect/bsp/many_meshes/crossed_facets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/deep_recursion.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Pairs that are compared as they are.
+constexpr std::uint64_t few_pairs = 4000;
+// What a splitting plane may leave of the pairs; once in a row it may leave more.
+constexpr double worthy_part = 0.75;
+
+template <class Items>
+std::uint64_t pairs_of(const Items& items) {
+    return std::uint64_t{items[0].size()} * items[1].size();
+}
+
+// A triangle, cut by planes across the axes: in doubles, off by no more than its margin.
+class CutTriangle {
+public:
+    explicit CutTriangle(const std::array<Vector3, 3>& corners) {
+        for (const Vector3& c : corners) {
+            points_[count_++] = c;
+            for (const double v : c) margin_ = std::max(margin_, 0x1p-45 * std::fabs(v));
+        }
+    }
+    void cut(std::size_t axis, double at, bool below) {
+        std::array<Vector3, most> out;
+        std::size_t n = 0;
+        const auto height = [&](const Vector3& p) { return below ? at - p[axis] : p[axis] - at; };
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Vector3& p = points_[i];
+            const Vector3& q = points_[i + 1 == count_ ? 0 : i + 1];
+            const double a = height(p);
+            const double b = height(q);
+            if (a >= 0) out[n++] = p;
+            if ((a >= 0) != (b >= 0)) {
+                const double t = a / (a - b);
+                for (std::size_t k = 0; k < 3; ++k) out[n][k] = p[k] + t * (q[k] - p[k]);
+                ++n;
+            }
+        }
+        points_ = out;
+        count_ = n;
+    }
+    [[nodiscard]] double margin() const { return margin_; }
+    [[nodiscard]] OutlineBox box() const {
+        OutlineBox b = OutlineBox::none();
+        for (std::size_t i = 0; i < count_; ++i) b.add(Approximation{points_[i], margin_});
+        return b;
+    }
+
+private:
+    static constexpr std::size_t most = 10;
+    std::array<Vector3, most> points_;
+    std::size_t count_ = 0;
+    double margin_ = 0;
+};
+
+}  // namespace
+
+bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& second,
+                               EvaluateStats& stats) {
+    solids_ = {&first, &second};
+    stats_ = &stats;
+    found_.clear();
+    known_.clear();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Cell cell;
+    cell.bounds = {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const OutlineBox& other = solids_[1 - i]->box;
+        const std::vector<OutlineBox>& boxes = solids_[i]->boxes;
+        cell.items[i].reserve(boxes.size());
+        for (std::uint32_t f = 0; f < boxes.size(); ++f)
+            if (boxes[f].meets(other)) cell.items[i].push_back({boxes[f], f});
+    }
+    return solve(cell);
+}
+
+bool CrossedFacetsFinder::solve(Cell& cell) {
+    ++stats_->cells;
+    check_budget(options_, *stats_);
+    if (!leave_out(cell)) return true;
+    if (pairs_of(cell.items) <= few_pairs) return compare(cell);
+    const Splitter splitter = splitter_of(cell);
+    const bool stalls = splitter.part_left > worthy_part;
+    if (stalls && cell.stalled) return compare(cell);
+    cell.stalled = stalls;
+    return with_enough_stack([&] { return divide(cell, splitter); });
+}
+
+// Takes out what does not meet the other ones' boxes in the cell; false when nothing is left.
+bool CrossedFacetsFinder::leave_out(Cell& cell) const {
+    for (std::size_t i = 0; i < 2; ++i) {
+        OutlineBox reach = OutlineBox::none();
+        for (const Item& item : cell.items[1 - i]) reach.add(item.box);
+        for (std::size_t k = 0; k < 3; ++k) {
+            reach.lo[k] = std::max(reach.lo[k], cell.bounds.lo[k]);
+            reach.hi[k] = std::min(reach.hi[k], cell.bounds.hi[k]);
+        }
+        std::erase_if(cell.items[i], [&](Item& item) {
+            if (!item.box.meets(reach)) return true;
+            draw_in(i, item, reach);
+            return !item.box.meets(reach);
+        });
+        if (cell.items[i].empty()) return false;
+    }
+    return true;
+}
+
+// A facet that is long beside the reach along two axes.
+void CrossedFacetsFinder::draw_in(std::size_t solid, Item& item, const OutlineBox& reach) const {
+    int along = 0;
+    bool within = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        along += 3 * (item.box.hi[k] - item.box.lo[k]) > reach.hi[k] - reach.lo[k] ? 1 : 0;
+        within = within && reach.lo[k] <= item.box.lo[k] && item.box.hi[k] <= reach.hi[k];
+    }
+    if (along < 2 || within) return;
+    const OutlinedSolid::Facet& f = solids_[solid]->facets[item.place];
+    CutTriangle part(meshes_.corners(f.slot, f.number - meshes_.operands->operands[f.slot].first));
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (item.box.lo[k] < reach.lo[k]) part.cut(k, reach.lo[k] - part.margin(), false);
+        if (item.box.hi[k] > reach.hi[k]) part.cut(k, reach.hi[k] + part.margin(), true);
+    }
+    const OutlineBox box = part.box();
+    for (std::size_t k = 0; k < 3; ++k) {
+        item.box.lo[k] = std::max(item.box.lo[k], box.lo[k]);
+        item.box.hi[k] = std::min(item.box.hi[k], box.hi[k]);
+    }
+}
+
+// In the middle, across the axis that leaves the fewest pairs.
+CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell) {
+    OutlineBox all = OutlineBox::none();
+    for (const auto& items : cell.items)
+        for (const Item& item : items) all.add(item.box);
+    Splitter best;
+    best.part_left = 2;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double low = std::max(all.lo[k], cell.bounds.lo[k]);
+        const double high = std::min(all.hi[k], cell.bounds.hi[k]);
+        Splitter s{k, low + (high - low) / 2, 0};
+        double below = 1;
+        double above = 1;
+        for (const auto& items : cell.items) {
+            std::size_t first = 0;
+            std::size_t second = 0;
+            for (const Item& item : items) {
+                first += item.box.lo[k] < s.at ? 1 : 0;
+                second += item.box.hi[k] >= s.at ? 1 : 0;
+            }
+            below *= static_cast<double>(first) / static_cast<double>(items.size());
+            above *= static_cast<double>(second) / static_cast<double>(items.size());
+        }
+        s.part_left = below + above;
+        if (s.part_left < best.part_left) best = s;
+    }
+    return best;
+}
+
+bool CrossedFacetsFinder::divide(Cell& cell, const Splitter& splitter) {
+    const auto [axis, at, part_left] = splitter;
+    std::array<Cell, 2> children;
+    for (Cell& c : children) {
+        c.bounds = cell.bounds;
+        c.stalled = cell.stalled;
+    }
+    children[0].bounds.hi[axis] = children[1].bounds.lo[axis] = at;
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (Cell& c : children) c.items[i].reserve(cell.items[i].size());
+        for (const Item& item : cell.items[i]) {
+            if (item.box.lo[axis] < at) children[0].items[i].push_back(item);
+            if (item.box.hi[axis] >= at) children[1].items[i].push_back(item);
+        }
+        cell.items[i] = {};
+    }
+    return solve(children[0]) && solve(children[1]);
+}
+
+bool CrossedFacetsFinder::compare(const Cell& cell) {
+    polygons_.clear();
+    for (std::size_t i = 0; i < 2; ++i)
+        for (const Item& item : cell.items[i]) {
+            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
+            polygons_.push_back({meshes_.sources[f.slot], nullptr,
+                                 f.number - meshes_.operands->operands[f.slot].first, false,
+                                 false});
+        }
+    const std::span<const PolygonRef> all(polygons_);
+    const std::size_t n = cell.items[0].size();
+    const std::array<LeafOperand, 2> operands{LeafOperand{0, all.first(n), false, true, 0},
+                                              LeafOperand{1, all.subspan(n), false, true, 0}};
+    FinePoint near;
+    const LatticePoint& corner = all[0].source->corner(all[0].facet, 0);
+    for (std::size_t k = 0; k < 3; ++k)
+        near.c[k] = position_of(corner[static_cast<int>(k)]) * splitting_scale;
+    ++stats_->mixed_leaves;
+    ++stats_->filtered_leaves;
+    stats_->listed_polygons += all.size();
+    if (!facets_.list({trisect::detail::Cell{}, near, operands, nullptr, &options_})) return false;
+    draw_in_boxes(cell);
+    if (!pairs_.relate_all_by_planes(facets_, *stats_)) return false;
+    keep_crossings(cell);
+    return true;
+}
+
+void CrossedFacetsFinder::draw_in_boxes(const Cell& cell) {
+    LeafIndex number = 0;
+    for (const auto& items : cell.items)
+        for (const Item& item : items) {
+            FilteredFacet& f = facets_[number++];
+            const Approximation lo = facets_.from_lattice({item.box.lo, 0.0});
+            const Approximation hi = facets_.from_lattice({item.box.hi, 0.0});
+            for (std::size_t k = 0; k < 3; ++k) {
+                f.lo[k] = std::max(f.lo[k], lo.c[k] - 2 * lo.error);
+                f.hi[k] = std::min(f.hi[k], hi.c[k] + 2 * hi.error);
+            }
+        }
+}
+
+// A pair may be listed in several cells.
+void CrossedFacetsFinder::keep_crossings(const Cell& cell) {
+    const std::size_t n = cell.items[0].size();
+    const bool only = !std::isfinite(cell.bounds.lo[0]) && !std::isfinite(cell.bounds.hi[0]) &&
+                      !std::isfinite(cell.bounds.lo[1]) && !std::isfinite(cell.bounds.hi[1]) &&
+                      !std::isfinite(cell.bounds.lo[2]) && !std::isfinite(cell.bounds.hi[2]);
+    for (const FilteredCrossing& c : pairs_.crossings()) {
+        const std::array places{cell.items[0][as_index(c.items[0])].place,
+                                cell.items[1][as_index(c.items[1]) - n].place};
+        if (!only && !known_.insert({places[0], places[1]}, 0).second) continue;
+        CrossedFacets& made = found_.emplace_back();
+        made.places = places;
+        for (std::size_t k = 0; k < 2; ++k) {
+            made.crossing.facets[k] = solids_[k]->facets[places[k]].number;
+            const FilteredEnd& end = c.ends[k];
+            made.crossing.ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
+        }
+    }
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CrossedFacets: pairs of facets of two outlined solids that cross.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/leaf/doubles/filtered_facets.h>
+#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/kernel/support/flat_map.h>
+
+namespace trisect::detail {
+
+/// Two facets, by their places in either solid. They cross as whole facets; whether their parts do
+/// is another question.
+struct CrossedFacets {
+    std::array<std::uint32_t, 2> places{};
+    FacetCrossing crossing;
+};
+
+/// Finds such pairs among those whose parts have boxes that meet; keeps its memory.
+class CrossedFacetsFinder {
+public:
+    CrossedFacetsFinder(const ManyMeshes& meshes, const EvaluateSettings& options)
+        : meshes_(meshes), options_(options) {}
+
+    /// False when doubles cannot decide a pair. Counts.
+    [[nodiscard]] bool find(const OutlinedSolid& first, const OutlinedSolid& second,
+                            EvaluateStats& stats);
+    /// Each pair once.
+    [[nodiscard]] std::span<const CrossedFacets> pairs() const { return found_; }
+
+private:
+    struct Item {
+        OutlineBox box;  ///< of what may lie in the cell
+        std::uint32_t place = 0;
+    };
+    using Items = std::array<std::vector<Item>, 2>;
+    struct Cell {
+        OutlineBox bounds;
+        Items items;
+        bool stalled = false;
+    };
+    struct Splitter {
+        std::size_t axis = 0;
+        double at = 0;
+        double part_left = 1;  ///< of the pairs, on both sides together
+    };
+    [[nodiscard]] bool solve(Cell& cell);
+    [[nodiscard]] bool leave_out(Cell& cell) const;
+    void draw_in(std::size_t solid, Item& item, const OutlineBox& reach) const;
+    [[nodiscard]] static Splitter splitter_of(const Cell& cell);
+    [[nodiscard]] bool divide(Cell& cell, const Splitter& splitter);
+    [[nodiscard]] bool compare(const Cell& cell);
+    void draw_in_boxes(const Cell& cell);
+    void keep_crossings(const Cell& cell);
+
+    const ManyMeshes& meshes_;
+    const EvaluateSettings& options_;
+    std::array<const OutlinedSolid*, 2> solids_{};
+    std::vector<CrossedFacets> found_;
+    FlatMap known_;  // those that were found, where there are several cells
+    EvaluateStats* stats_ = nullptr;
+    FilteredFacets facets_;
+    FilteredPairs pairs_;
+    std::vector<PolygonRef> polygons_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Operations on many meshes of which only triangles may be wanted.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <trisect/bsp/cells/residual.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/cells/work_budget.h>
+
+namespace trisect::detail {
+
+/// Whether a formula is a union, an intersection or a difference of three imported meshes or more,
+/// none of which has an index, and neither work nor memory is limited.
+[[nodiscard]] bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
+                                      const EvaluateSettings& options);
+/// And whether their boxes mostly overlap: else more is compared pair by pair than in cells.
+[[nodiscard]] bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
+                                   const EvaluateSettings& options);
+
+/// The value of such a formula, with that tree. Nothing where meshes are not in general position.
+/// What it returns does not depend on the number of threads. \pre may_be_many_meshes()
+[[nodiscard]] std::optional<SolidForm> evaluate_many_without_tree(
+    const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
+    EvaluateStats& stats, std::shared_ptr<const LazyTree> tree);
+
+}  // namespace trisect::detail

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace trisect::detail {
+
+OutlineBox OutlineBox::none() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+// A coordinate that is rounded after the error is added still has a whole unit in the last place.
+void OutlineBox::add(const Approximation& p) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double margin = p.error == 0 ? 0 : p.error + 0x1p-51 * std::abs(p.c[k]);
+        lo[k] = std::min(lo[k], p.c[k] - margin);
+        hi[k] = std::max(hi[k], p.c[k] + margin);
+    }
+}
+
+void OutlineBox::add(const OutlineBox& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        lo[k] = std::min(lo[k], b.lo[k]);
+        hi[k] = std::max(hi[k], b.hi[k]);
+    }
+}
+
+OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool open_far_out) {
+    const LatticeMesh& mesh = meshes.sources[slot]->mesh();
+    const std::uint32_t first = meshes.operands->operands[slot].first;
+    OutlinedSolid out;
+    out.open_far_out = open_far_out;
+    out.vertices.resize(mesh.points.size());
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+        out.vertices[v].at = {mesh.points[v].doubles(), 0.0};
+    out.facets.reserve(mesh.triangles.size());
+    out.boxes.reserve(mesh.triangles.size());
+    out.edges.reserve(3 * mesh.triangles.size());
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+        const auto& t = mesh.triangles[f];
+        out.facets.push_back({first + f, slot, 3 * f, 3, true});
+        OutlineBox& box = out.boxes.emplace_back(OutlineBox::none());
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            out.edges.push_back({t[i], t[(i + 1) % 3], nullptr, static_cast<std::int8_t>(i)});
+            OutlineVertex& v = out.vertices[t[i]];
+            v.facets[0] = first + f;
+            v.which = static_cast<std::int8_t>(i);
+            box.add(v.at);
+        }
+        out.box.add(box);
+    }
+    return out;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// OutlinedSolid: a set that some operands of a formula leave open, by its boundary.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/cells/outlined_facets.h>
+#include <trisect/bsp/cells/source.h>
+#include <trisect/kernel/number/vector3.h>
+
+namespace trisect::detail {
+
+/// The operands of a union, an intersection or a difference of imported meshes, shared by all steps
+/// of its evaluation.
+struct ManyMeshes {
+    const Crossings* operands = nullptr;  ///< without pairs
+    std::vector<const Source*> sources;   ///< by slot
+    Vector3 extent{};                     ///< of all together
+
+    [[nodiscard]] std::array<Vector3, 3> corners(std::uint32_t slot, std::uint32_t facet) const {
+        const Source& s = *sources[slot];
+        return {s.corner(facet, 0).doubles(), s.corner(facet, 1).doubles(),
+                s.corner(facet, 2).doubles()};
+    }
+};
+
+struct OutlineBox {
+    Vector3 lo{};
+    Vector3 hi{};
+
+    /// A box that any other one enlarges.
+    [[nodiscard]] static OutlineBox none();
+    void add(const Approximation& p);
+    void add(const OutlineBox& b);
+    [[nodiscard]] bool meets(const OutlineBox& b) const {
+        return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] &&
+               lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
+    }
+};
+
+/// The set that all of some operands leave open (see Crossings). What bounds it is parts of their
+/// facets: whole ones, and others by their outlines.
+struct OutlinedSolid {
+    struct Edge {
+        std::uint32_t from = 0;  ///< vertices; the part is to the left, seen from above the facet
+        std::uint32_t to = 0;
+        const FacetCrossing* line = nullptr;  ///< of the facet with a cutter; else the edge is
+        std::int8_t own = -1;                 ///< a part of this one of the facet's
+    };
+    struct Facet {
+        std::uint32_t number = 0;  ///< of Crossings
+        std::uint32_t slot = 0;
+        std::uint32_t first = 0;  ///< of its edges
+        std::uint32_t count = 0;
+        bool whole = false;  ///< then the edges are those of the facet, in their order
+    };
+    using Lines = std::vector<FacetCrossing>;
+
+    std::vector<Facet> facets;      ///< ascending
+    std::vector<OutlineBox> boxes;  ///< of their parts
+    std::vector<Edge> edges;
+    std::vector<OutlineVertex> vertices;
+    std::vector<std::unique_ptr<const Lines>> lines;  ///< that edges lie in
+    OutlineBox box = OutlineBox::none();              ///< of all
+    bool open_far_out = false;
+
+    [[nodiscard]] std::span<const Edge> edges_of(const Facet& f) const {
+        return std::span(edges).subspan(f.first, f.count);
+    }
+};
+
+/// One operand.
+[[nodiscard]] OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot,
+                                          bool open_far_out);
+
+}  // namespace trisect::detail

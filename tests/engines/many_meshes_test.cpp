@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Formulas over many meshes that are evaluated pair by pair, without a tree
+// (many_meshes_without_tree.h), against the naive engine in rationals and against a tree of cells,
+// and how often each decides.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/assembly/assembly.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/rules.h>
+#include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
+#include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
+
+#include "engines.h"
+
+namespace many_meshes_test {
+namespace {
+
+using reference::Expression;
+using reference::Operand;
+using trisect::detail::SolidState;
+using Kind = Expression::Kind;
+
+struct Count {
+    int tried = 0;
+    int without_tree = 0;
+};
+
+// By the rule alone, wherever the meshes lie.
+std::shared_ptr<const SolidState> without_tree(const trisect::Expression& expression,
+                                               std::uint32_t threads = 1) {
+    using namespace trisect::detail;
+    const Translation t = translate(expression);
+    std::vector<std::shared_ptr<const SolidState>> states;
+    for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
+    trisect::EvaluateOptions options;
+    options.threads = threads;
+    trisect::detail::EvaluateStats stats;
+    return evaluate_by({&may_be_many_meshes, &evaluate_many_without_tree}, t.formula, states,
+                       EvaluateSettings{options, SplittingOffset::of_thread()}, stats);
+}
+
+trisect::Solid by_cells(const trisect::Expression& expression) {
+    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});  // counted by cells
+    return trisect::evaluate(expression);
+}
+
+// Nothing where the set is unbounded.
+std::optional<trisect::PolygonMesh> mesh_of(const SolidState& state) {
+    try {
+        return trisect::detail::assemble_mesh(state);
+    } catch (const trisect::UnsupportedError&) {
+        return std::nullopt;
+    }
+}
+
+void expect_same_as_cells(const trisect::Expression& expression, Count& count) {
+    ++count.tried;
+    const auto state = without_tree(expression);
+    if (state == nullptr) return;
+    ++count.without_tree;
+    const auto mesh = mesh_of(*state);
+    const auto expected = mesh_of(*trisect::detail::state_of(by_cells(expression)));
+    ASSERT_EQ(mesh.has_value(), expected.has_value());
+    if (!mesh) return;
+    EXPECT_EQ(mesh->corners, expected->corners);
+    EXPECT_TRUE(mesh->points == expected->points);
+    EXPECT_EQ(engines::open_edge(*mesh), "");
+    EXPECT_FALSE(state->lazy_tree()->is_cut());
+}
+
+void expect_agreement(const std::vector<Operand>& operands, const Expression& expression,
+                      Count& count) {
+    std::vector<trisect::Solid> solids;
+    solids.reserve(operands.size());
+    for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
+    const trisect::Expression formula = engines::formula(expression, solids);
+    ++count.tried;
+    const auto state = without_tree(formula);
+    if (state == nullptr) return;
+    ++count.without_tree;
+    try {
+        const auto expected = reference::evaluate(operands, expression);
+        EXPECT_EQ(engines::difference(trisect::detail::assemble_brep(*state, {}),
+                                      reference::canonical_boundary(expected.cells)),
+                  "");
+        if (const auto mesh = mesh_of(*state)) {
+            EXPECT_EQ(engines::open_edge(*mesh), "");
+        }
+    } catch (const trisect::UnsupportedError&) {
+    }
+    EXPECT_FALSE(state->lazy_tree()->is_cut());
+}
+
+// Some operands are complements.
+Expression random_formula(reference::Random& random, std::size_t n, Kind kind) {
+    std::vector<Expression> terms;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Expression leaf = Expression::leaf(i);
+        terms.push_back(random.between(0, 2) == 0 ? Expression::node(Kind::Complement, {leaf})
+                                                  : leaf);
+    }
+    return Expression::node(kind, terms);
+}
+
+TEST(ManyMeshes, InGeneralPosition) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 610000);
+        std::vector<Operand> operands;
+        for (std::size_t i = 0; i < 3 + seed % 3; ++i)
+            operands.push_back(engines::mapped(reference::random_embedded_solid(random), random));
+        expect_agreement(operands,
+                         random_formula(random, operands.size(),
+                                        seed % 2 == 0 ? Kind::Union : Kind::Intersection),
+                         count);
+    }
+    EXPECT_GT(count.without_tree, 140);
+}
+
+// Nearly everything touches there, and what touches goes by the tree.
+TEST(ManyMeshes, OnASmallGrid) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 620000);
+        const auto operands = reference::random_family(random, 3 + seed % 3, true);
+        expect_agreement(operands,
+                         random_formula(random, operands.size(),
+                                        seed % 2 == 0 ? Kind::Union : Kind::Intersection),
+                         count);
+    }
+    EXPECT_LT(count.without_tree, 75);
+}
+
+// Of radius `radius`, turned and moved.
+trisect::Solid sphere(double radius, double turn, double move) {
+    trisect::PolygonMesh mesh = trisect::make_icosphere(radius, 2);
+    for (trisect::Point3d& p : mesh.points)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double angle = turn * (1 + 0.37 * static_cast<double>(axis));
+            double& x = p[axis];
+            double& y = p[(axis + 1) % 3];
+            const double turned = std::cos(angle) * x - std::sin(angle) * y;
+            y = std::sin(angle) * x + std::cos(angle) * y + move;
+            x = turned;
+        }
+    return trisect::Solid::from_mesh(mesh);
+}
+
+TEST(ManyMeshes, CornerByCornerLikeCells) {
+    Count count;
+    for (const int n : {3, 4, 7, 12}) {
+        SCOPED_TRACE(n);
+        std::vector<trisect::Solid> equal;
+        std::vector<trisect::Solid> nested;
+        std::vector<trisect::Solid> apart;
+        for (int i = 0; i < n; ++i) {
+            equal.push_back(sphere(1 + 0.01 * (i * 7 % n) / n, 0.3 + i, 0));
+            nested.push_back(sphere(1 + 0.1 * i, 0.3 + i, 0));
+            apart.push_back(sphere(1, 0.3 + i, 0.5 * i));
+        }
+        for (const auto& solids : {equal, nested, apart}) {
+            expect_same_as_cells(trisect::Expression::any_of(solids), count);
+            expect_same_as_cells(trisect::Expression::all_of(solids), count);
+            expect_same_as_cells(
+                solids[0] - trisect::Expression::any_of(std::span(solids).subspan(1)), count);
+            expect_same_as_cells(~trisect::Expression::any_of(solids), count);
+        }
+    }
+    EXPECT_EQ(count.without_tree, count.tried);
+}
+
+// Whichever thread makes them.
+TEST(ManyMeshes, ParallelPairsGiveTheSame) {
+    std::vector<trisect::Solid> solids;
+    for (int i = 0; i < 12; ++i) solids.push_back(sphere(1 + 0.05 * (i % 3), 0.3 + i, 0.02 * i));
+    for (const trisect::Expression& e :
+         {trisect::Expression::any_of(solids), trisect::Expression::all_of(solids)}) {
+        const auto alone = without_tree(e);
+        ASSERT_NE(alone, nullptr);
+        const trisect::PolygonMesh expected = trisect::detail::assemble_mesh(*alone);
+        for (const std::uint32_t threads : {2U, 5U}) {
+            const auto state = without_tree(e, threads);
+            ASSERT_NE(state, nullptr);
+            const trisect::PolygonMesh mesh = trisect::detail::assemble_mesh(*state);
+            EXPECT_EQ(mesh.corners, expected.corners);
+            EXPECT_TRUE(mesh.points == expected.points);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace many_meshes_test
