@@ -45,20 +45,11 @@ bool CommonSegments::find(const std::array<std::uint32_t, 2>& places,
     inside_.clear();
     const std::array facets{&solids_[0]->facets[places[0]], &solids_[1]->facets[places[1]]};
     if (facets[0]->whole && facets[1]->whole) return walk(facets);
-    for (std::size_t i = 0; i < 2; ++i)
-        if (!facets[i]->whole && misses(solids_[i]->boxes[places[i]])) return true;
     set_way();
     for (std::size_t i = 0; i < 2; ++i)
         if (!facets[i]->whole && !list_passages(i, *facets[i], plane(1 - i, places[1 - i])))
             return false;
     return sort_inside() && walk(facets);
-}
-
-// Whether the crossing surely has nothing in a box.
-bool CommonSegments::misses(const OutlineBox& box) const {
-    OutlineBox own = OutlineBox::none();
-    for (const FacetCrossing::End& end : crossing_->ends) own.add(end.at);
-    return !own.meets(box);
 }
 
 // Along which axis the crossing is longest.

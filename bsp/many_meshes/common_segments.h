@@ -51,7 +51,6 @@ private:
         double along = 0;
         Approximation at;
     };
-    [[nodiscard]] bool misses(const OutlineBox& box) const;
     void set_way();
     [[nodiscard]] bool list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
                                      const FilteredPlane& other);

@@ -28,6 +28,13 @@ std::uint64_t pairs_of(const Items& items) {
     return std::uint64_t{items[0].size()} * items[1].size();
 }
 
+// So that no other cell lists it.
+bool lies_within(const OutlineBox& box, const OutlineBox& bounds) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(bounds.lo[k] <= box.lo[k] && box.hi[k] < bounds.hi[k])) return false;
+    return true;
+}
+
 // A triangle, cut by planes across the axes: in doubles, off by no more than its margin.
 class CutTriangle {
 public:
@@ -113,6 +120,7 @@ bool CrossedFacetsFinder::leave_out(Cell& cell) const {
             reach.hi[k] = std::min(reach.hi[k], cell.bounds.hi[k]);
         }
         std::erase_if(cell.items[i], [&](Item& item) {
+            if (reach.contains(item.box)) return false;
             if (!item.box.meets(reach)) return true;
             draw_in(i, item, reach);
             return !item.box.meets(reach);
@@ -125,12 +133,9 @@ bool CrossedFacetsFinder::leave_out(Cell& cell) const {
 // A facet that is long beside the reach along two axes.
 void CrossedFacetsFinder::draw_in(std::size_t solid, Item& item, const OutlineBox& reach) const {
     int along = 0;
-    bool within = true;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
         along += 3 * (item.box.hi[k] - item.box.lo[k]) > reach.hi[k] - reach.lo[k] ? 1 : 0;
-        within = within && reach.lo[k] <= item.box.lo[k] && item.box.hi[k] <= reach.hi[k];
-    }
-    if (along < 2 || within) return;
+    if (along < 2) return;
     const OutlinedSolid::Facet& f = solids_[solid]->facets[item.place];
     CutTriangle part(meshes_.corners(f.slot, f.number - meshes_.operands->operands[f.slot].first));
     for (std::size_t k = 0; k < 3; ++k) {
@@ -233,23 +238,33 @@ void CrossedFacetsFinder::draw_in_boxes(const Cell& cell) {
         }
 }
 
-// A pair may be listed in several cells.
+// A pair may be listed in several cells, but not where one of them is within this one. Of two parts
+// the whole facets may cross somewhere else.
 void CrossedFacetsFinder::keep_crossings(const Cell& cell) {
     const std::size_t n = cell.items[0].size();
-    const bool only = !std::isfinite(cell.bounds.lo[0]) && !std::isfinite(cell.bounds.hi[0]) &&
-                      !std::isfinite(cell.bounds.lo[1]) && !std::isfinite(cell.bounds.hi[1]) &&
-                      !std::isfinite(cell.bounds.lo[2]) && !std::isfinite(cell.bounds.hi[2]);
     for (const FilteredCrossing& c : pairs_.crossings()) {
         const std::array places{cell.items[0][as_index(c.items[0])].place,
                                 cell.items[1][as_index(c.items[1]) - n].place};
-        if (!only && !known_.insert({places[0], places[1]}, 0).second) continue;
+        std::array<FacetCrossing::End, 2> ends;
+        OutlineBox box = OutlineBox::none();
+        for (std::size_t k = 0; k < 2; ++k) {
+            const FilteredEnd& end = c.ends[k];
+            ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
+            box.add(ends[k].at);
+        }
+        bool is_once = false;
+        bool is_apart = false;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const OutlineBox& part = solids_[i]->boxes[places[i]];
+            is_once = is_once || lies_within(part, cell.bounds);
+            is_apart = is_apart || (!solids_[i]->facets[places[i]].whole && !part.meets(box));
+        }
+        if (is_apart || (!is_once && !known_.insert({places[0], places[1]}, 0).second)) continue;
         CrossedFacets& made = found_.emplace_back();
         made.places = places;
-        for (std::size_t k = 0; k < 2; ++k) {
+        made.crossing.ends = ends;
+        for (std::size_t k = 0; k < 2; ++k)
             made.crossing.facets[k] = solids_[k]->facets[places[k]].number;
-            const FilteredEnd& end = c.ends[k];
-            made.crossing.ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
-        }
     }
 }
 

@@ -12,22 +12,6 @@ OutlineBox OutlineBox::none() {
     return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }
 
-// A coordinate that is rounded after the error is added still has a whole unit in the last place.
-void OutlineBox::add(const Approximation& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double margin = p.error == 0 ? 0 : p.error + 0x1p-51 * std::abs(p.c[k]);
-        lo[k] = std::min(lo[k], p.c[k] - margin);
-        hi[k] = std::max(hi[k], p.c[k] + margin);
-    }
-}
-
-void OutlineBox::add(const OutlineBox& b) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        lo[k] = std::min(lo[k], b.lo[k]);
-        hi[k] = std::max(hi[k], b.hi[k]);
-    }
-}
-
 OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool open_far_out) {
     const LatticeMesh& mesh = meshes.sources[slot]->mesh();
     const std::uint32_t first = meshes.operands->operands[slot].first;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// OutlinedSolid: a set that some operands of a formula leave open, by its boundary.
+// OutlinedSolid: a set that some operands leave open, by its boundary.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -37,8 +39,24 @@ struct OutlineBox {
 
     /// A box that any other one enlarges.
     [[nodiscard]] static OutlineBox none();
-    void add(const Approximation& p);
-    void add(const OutlineBox& b);
+    void add(const Approximation& p) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            // What is rounded after the error is added.
+            const double margin = p.error == 0 ? 0 : p.error + 0x1p-51 * std::fabs(p.c[k]);
+            lo[k] = std::min(lo[k], p.c[k] - margin);
+            hi[k] = std::max(hi[k], p.c[k] + margin);
+        }
+    }
+    void add(const OutlineBox& b) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], b.lo[k]);
+            hi[k] = std::max(hi[k], b.hi[k]);
+        }
+    }
+    [[nodiscard]] bool contains(const OutlineBox& b) const {
+        return lo[0] <= b.lo[0] && b.hi[0] <= hi[0] && lo[1] <= b.lo[1] && b.hi[1] <= hi[1] &&
+               lo[2] <= b.lo[2] && b.hi[2] <= hi[2];
+    }
     [[nodiscard]] bool meets(const OutlineBox& b) const {
         return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] &&
                lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
