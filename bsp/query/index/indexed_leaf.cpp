@@ -54,6 +54,15 @@ std::size_t bytes_of(const std::vector<T>& v) {
     return v.capacity() * sizeof(T);
 }
 
+// Whether a point is beyond the polygons' box.
+bool lies_beyond(const IndexPolygons& polygons, const Reference& point) {
+    const DoubleBox box = polygons.bounds();
+    for (std::size_t k = 0; k < 3; ++k)
+        if (point.c[k] + point.error < box.lo[k] || point.c[k] - point.error > box.hi[k])
+            return true;
+    return false;
+}
+
 }  // namespace
 
 class IndexDivision {
@@ -122,8 +131,14 @@ std::mutex& IndexedLeaf::dividing() const {
     return mutexes[mix64(reinterpret_cast<std::uintptr_t>(this)) % mutexes.size()];
 }
 
-// Along a line from the reference.
+// Along a line from the reference. A whole mesh is closed, so all around its box is as the
+// reference is, if that is there.
 bool IndexedLeaf::find_side(std::size_t side) const {
+    const Reference from(reference_);
+    if (polygons_.only_source() != nullptr && lies_beyond(polygons_, from)) {
+        for (auto& s : sides_) s.store(winding_ > 0 ? 1 : 0, std::memory_order_relaxed);
+        return winding_ > 0;
+    }
     const std::size_t k = side / 2;
     FinePoint to = reference_;
     to.c[k] =
@@ -134,7 +149,6 @@ bool IndexedLeaf::find_side(std::size_t side) const {
                   (static_cast<std::int64_t>(std::ceil(above_[k])) + 2) * splitting_scale, 1);
     std::int32_t winding = winding_;
     const IndexPoint point(to);
-    const Reference from(reference_);
     for (Id id = 0; id < polygons_.size(); ++id) {
         const DoubleBox box = polygons_.bounds(id);
         bool near = true;
