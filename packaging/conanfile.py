@@ -61,5 +61,5 @@ class TrisectConan(ConanFile):
         # Users get the project's own trisect-config.cmake.
         self.cpp_info.set_property("cmake_find_mode", "none")
         self.cpp_info.builddirs = ["lib/cmake/trisect"]
-        self.cpp_info.libs = ["trisect_interference", "trisect_bsp", "trisect_brep", "trisect_kernel"]
+        self.cpp_info.libs = ["trisect_csg", "trisect_interference", "trisect_bsp", "trisect_brep", "trisect_kernel"]
         self.cpp_info.cxxflags = ["-ffp-contract=off"]

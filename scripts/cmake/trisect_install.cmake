@@ -11,6 +11,7 @@ install(
         trisect_kernel
         trisect_brep
         trisect_bsp
+        trisect_csg
         trisect_interference
     EXPORT trisect_targets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
@@ -80,6 +81,10 @@ set(private_headers
     brep/validate/triangle_tree.h
     brep/validate/twins.h
     bsp/manifold.h
+    bsp/csg/csg_arguments.h
+    bsp/csg/csg_lexer.h
+    bsp/csg/csg_outlines.h
+    bsp/csg/csg_shapes.h
     bsp/trisect.h
     kernel/plane_value.h
     kernel/triangle_pair.h
@@ -97,6 +102,7 @@ foreach(
         brep/primitives
         brep/validate
         bsp
+        bsp/csg
         bsp/interference
 )
     file(
