@@ -35,6 +35,7 @@ struct Request {
     CorpusOptions corpus;
     ConvertOptions convert;
     TessellateOptions tessellate;
+    EvalOptions eval;
     LocateOptions locate;
     SweepOptions sweep;
     SectionOptions section;
@@ -172,6 +173,7 @@ void declare(CLI::App& app, Request& request) {
     add_corpus_command(app, request.corpus);
     add_convert_command(app, request.convert);
     add_tessellate_command(app, request.tessellate);
+    add_eval_command(app, request.eval);
     add_locate_command(app, request.locate);
     add_sweep_command(app, request.sweep);
     add_section_command(app, request.section);
@@ -195,6 +197,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "corpus") return run_corpus(session, request.corpus);
     if (name == "convert") return run_convert(session, request.convert);
     if (name == "tessellate") return run_tessellate(session, request.tessellate);
+    if (name == "eval") return run_eval(session, request.eval);
     if (name == "locate") return run_locate(session, request.locate);
     if (name == "sweep") return run_sweep(session, request.sweep);
     if (name == "section") return run_section(session, request.section);

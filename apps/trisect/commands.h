@@ -38,6 +38,9 @@ void add_convert_command(CLI::App& app, ConvertOptions& options);
 void add_tessellate_command(CLI::App& app, TessellateOptions& options);
 [[nodiscard]] Outcome run_tessellate(Session& session, const TessellateOptions& options);
 
+void add_eval_command(CLI::App& app, EvalOptions& options);
+[[nodiscard]] Outcome run_eval(Session& session, const EvalOptions& options);
+
 void add_locate_command(CLI::App& app, LocateOptions& options);
 [[nodiscard]] Outcome run_locate(Session& session, const LocateOptions& options);
 

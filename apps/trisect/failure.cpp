@@ -2,6 +2,7 @@
 #include "failure.h"
 
 #include <trisect/brep/validate/defect.h>
+#include <trisect/bsp/csg/csg_error.h>
 
 #include <filesystem>
 #include <new>
@@ -69,6 +70,8 @@ Failure current_failure() {
                 has_defects ? defects_json(e.report()) : Json()};
     } catch (const InputError& e) {
         return {static_cast<int>(e.code()), e.what(), e.place(), {}, e.place().line == 0};
+    } catch (const CsgError& e) {
+        return {static_cast<int>(e.code()), e.what(), e.place(), {}};
     } catch (const Error& e) {
         return simple(e.code(), e.what());
     } catch (const std::bad_alloc&) {

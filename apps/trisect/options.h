@@ -180,6 +180,12 @@ struct ConvertOptions {
     std::optional<double> scale;
 };
 
+struct EvalOptions {
+    std::string input;
+    std::string output;
+    bool summary = false;
+};
+
 struct TessellateOptions {
     std::string input;
     std::string output;

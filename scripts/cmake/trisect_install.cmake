@@ -82,8 +82,8 @@ set(private_headers
     brep/validate/twins.h
     bsp/manifold.h
     bsp/csg/csg_arguments.h
+    bsp/csg/csg_extrude.h
     bsp/csg/csg_lexer.h
-    bsp/csg/csg_outlines.h
     bsp/csg/csg_shapes.h
     bsp/trisect.h
     kernel/plane_value.h

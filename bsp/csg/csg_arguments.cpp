@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csg_arguments.h"
+
+#include <cmath>
+
+namespace trisect::detail {
+
+void CsgArguments::fail(ErrorCode code, CsgPlace place, const std::string& message) const {
+    throw CsgError(code, tree_.place(place), node_.name + ": " + message);
+}
+
+const CsgValue* CsgArguments::find(std::string_view name) const {
+    for (const CsgArgument& a : node_.arguments)
+        if (a.name == name) return a.value.is_undefined() ? nullptr : &a.value;
+    return nullptr;
+}
+
+const CsgValue* CsgArguments::first() const {
+    for (const CsgArgument& a : node_.arguments)
+        if (a.name.empty()) return &a.value;
+    return nullptr;
+}
+
+double CsgArguments::number(const CsgValue& value) const {
+    const double* n = value.number();
+    if (n == nullptr) fail(ErrorCode::Input, value.place, "a number was expected");
+    if (!std::isfinite(*n)) fail(ErrorCode::Input, value.place, "the number is not finite");
+    return *n;
+}
+
+double CsgArguments::number(std::string_view name, double otherwise) const {
+    const CsgValue* value = find(name);
+    return value == nullptr ? otherwise : number(*value);
+}
+
+bool CsgArguments::truth(std::string_view name, bool otherwise) const {
+    const CsgValue* value = find(name);
+    if (value == nullptr) return otherwise;
+    if (value->truth() == nullptr)
+        fail(ErrorCode::Input, value->place, std::string(name) + " must be true or false");
+    return *value->truth();
+}
+
+const CsgValue::List& CsgArguments::list(const CsgValue& value) const {
+    if (value.list() == nullptr) fail(ErrorCode::Input, value.place, "a list was expected");
+    return *value.list();
+}
+
+std::vector<double> CsgArguments::numbers(const CsgValue& value, std::size_t count) const {
+    std::vector<double> out;
+    for (const CsgValue& v : list(value)) out.push_back(number(v));
+    if (out.size() < count)
+        fail(ErrorCode::Input, value.place, std::to_string(count) + " numbers were expected");
+    return out;
+}
+
+std::vector<double> CsgArguments::numbers(std::string_view name, std::size_t count,
+                                          double otherwise) const {
+    const CsgValue* value = find(name);
+    if (value == nullptr) return std::vector<double>(count, otherwise);
+    if (value->number() != nullptr) return std::vector<double>(count, number(*value));
+    return numbers(*value, count);
+}
+
+std::vector<std::vector<std::uint32_t>> CsgArguments::index_lists(const CsgValue& value,
+                                                                  std::size_t limit) const {
+    std::vector<std::vector<std::uint32_t>> out;
+    for (const CsgValue& entry : list(value)) {
+        std::vector<std::uint32_t>& loop = out.emplace_back();
+        for (const CsgValue& v : list(entry)) {
+            const double i = number(v);
+            if (i < 0 || i >= static_cast<double>(limit) || i != std::floor(i))
+                fail(ErrorCode::Input, v.place, "no index of a point");
+            loop.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    return out;
+}
+
+}  // namespace trisect::detail

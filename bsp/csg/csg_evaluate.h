@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Evaluation of programs in OpenSCAD's evaluated form, exactly.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <trisect/bsp/csg/csg_tree.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect {
+
+struct CsgReport {
+    std::size_t nodes = 0;        ///< of the program
+    std::size_t leaves = 0;       ///< shapes that were used
+    std::size_t meshes = 0;       ///< of them, different ones: equal shapes are made once
+    std::size_t evaluations = 0;  ///< formulas; one, but for turned groups, hulls and extrusions
+    bool is_flat = false;         ///< the program describes a region of the plane
+    std::vector<std::string> remarks;  ///< what was left out, with its place; the first hundred
+};
+
+/// The set that a program describes. A region of the plane is returned as the prism over it
+/// between z = 0 and z = 1.
+///
+/// Corners of shapes are doubles, and formulas over them are exact. Rounded once are: corners of
+/// round shapes; corners under a matrix that turns by more than a change of axes; corners that a
+/// boolean has made, where a turned group, hull(), a twisted or tapered linear_extrude() or
+/// rotate_extrude() takes them.
+/// \throw CsgError: (Unsupported) for nodes that are not known, (Input) for arguments that make no
+/// sense, (InvalidSolid) for a polyhedron that bounds no solid; what evaluate() throws
+[[nodiscard]] Solid evaluate_csg(const CsgTree& tree, const EvaluateOptions& options = {},
+                                 CsgReport* report = nullptr);
+
+}  // namespace trisect

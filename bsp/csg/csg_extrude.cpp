@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "csg_extrude.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <trisect/brep/brep_mesh.h>
+
+#include "csg_shapes.h"
+
+namespace trisect::detail {
+namespace {
+
+double squared_distance(const Point3d& a, const Point3d& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
+    return sum;
+}
+
+/// Two triangles that share the shorter diagonal.
+void add_quad(PolygonMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
+              std::uint32_t d) {
+    const bool ac = squared_distance(mesh.points[a], mesh.points[c]) <=
+                    squared_distance(mesh.points[b], mesh.points[d]);
+    mesh.add_triangle(a, b, ac ? c : d);
+    if (ac)
+        mesh.add_triangle(a, c, d);
+    else
+        mesh.add_triangle(b, c, d);
+}
+
+/// Walls between two copies of the points; those of the second one begin at `upper`.
+void add_walls(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower,
+               std::uint32_t upper) {
+    for (const auto& loop : region.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::uint32_t a = loop[i];
+            const std::uint32_t b = loop[(i + 1) % loop.size()];
+            add_quad(mesh, lower + a, lower + b, upper + b, upper + a);
+        }
+}
+
+void add_ends(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower,
+              std::uint32_t upper) {
+    for (const auto& [a, b, c] : region.triangles) {
+        mesh.add_triangle(lower + a, lower + c, lower + b);
+        mesh.add_triangle(upper + a, upper + b, upper + c);
+    }
+}
+
+double largest_radius(const CsgRegion& region) {
+    double out = 0;
+    for (const Point2d& p : region.points) out = std::max(out, std::hypot(p[0], p[1]));
+    return out;
+}
+
+/// By $fn, or by the angle and the length of the way of the outermost point.
+double default_slices(const CsgArguments& arguments, double radius, double height, double twist) {
+    const double least = std::max(std::ceil(twist / 120), 1.0);
+    const double fn = std::floor(arguments.number("$fn", 0));
+    if (twist == 0 || radius == 0 || (fn > 0 && fn <= 3)) return least;
+    if (fn > 0) return std::max(std::ceil(twist / 360 * fn), least);
+    const double way = std::hypot(height, radius * twist * std::numbers::pi / 180);
+    const double by_angle = std::ceil(twist / std::max(arguments.number("$fa", 12), 0.01));
+    const double by_way = std::ceil(way / std::max(arguments.number("$fs", 2), 0.01));
+    return std::max(std::min(by_angle, by_way), least);
+}
+
+std::uint32_t layer_count(const CsgArguments& arguments, const CsgRegion& region, double layers) {
+    if (!(layers * static_cast<double>(region.points.size()) <= shape_limit))
+        arguments.fail(ErrorCode::Limit, "too many facets");
+    return static_cast<std::uint32_t>(layers);
+}
+
+bool is_at_top(const Brep& brep, const PolygonMesh& mesh, FaceId f) {
+    for (const HalfedgeId h : brep.halfedges(f))
+        if (mesh.points[brep.origin(h).index][2] != 1) return false;
+    return true;
+}
+
+void turn_over(PolygonMesh& mesh) {
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        std::reverse(mesh.corners.begin() + mesh.face_begin[f],
+                     mesh.corners.begin() + mesh.face_begin[f + 1]);
+}
+
+}  // namespace
+
+CsgRegion region_of_prism(const Solid& prism) {
+    CsgRegion out;
+    const Brep brep = prism.to_brep();
+    const PolygonMesh mesh = to_polygon_mesh(brep);
+    for (const Point3d& p : mesh.points) out.points.push_back({p[0], p[1]});
+    for (const FaceId f : brep.faces()) {
+        if (!is_at_top(brep, mesh, f)) continue;
+        for (const LoopId l : brep.loops(f)) {
+            auto& loop = out.loops.emplace_back();
+            for (const HalfedgeId h : brep.halfedges(l)) loop.push_back(brep.origin(h).index);
+        }
+        const std::vector<IndexTriangle> triangles = triangulate(brep, f);
+        out.triangles.insert(out.triangles.end(), triangles.begin(), triangles.end());
+    }
+    return out;
+}
+
+bool is_straight(const CsgArguments& arguments) {
+    const std::vector<double> scale = arguments.numbers("scale", 2, 1);
+    return arguments.number("twist", 0) == 0 && scale[0] == 1 && scale[1] == 1;
+}
+
+PolygonMesh csg_twisted(const CsgRegion& region, const CsgArguments& arguments, double low,
+                        double high) {
+    const double twist = arguments.number("twist", 0);
+    const std::vector<double> scale = arguments.numbers("scale", 2, 1);
+    const double wanted = arguments.number(
+        "slices", default_slices(arguments, largest_radius(region), high - low, std::fabs(twist)));
+    const std::uint32_t slices = layer_count(arguments, region, std::max(std::floor(wanted), 1.0));
+    const auto n = static_cast<std::uint32_t>(region.points.size());
+    PolygonMesh mesh;
+    for (std::uint32_t k = 0; k <= slices; ++k) {
+        const double part = static_cast<double>(k) / slices;
+        const double c = cosine_of_degrees(-twist * part);
+        const double s = sine_of_degrees(-twist * part);
+        const double sx = 1 + (std::max(scale[0], 0.0) - 1) * part;
+        const double sy = 1 + (std::max(scale[1], 0.0) - 1) * part;
+        const double z = k == slices ? high : low + (high - low) * part;
+        for (const Point2d& p : region.points)
+            mesh.points.push_back({sx * (c * p[0] - s * p[1]), sy * (s * p[0] + c * p[1]), z});
+    }
+    for (std::uint32_t k = 0; k < slices; ++k) add_walls(mesh, region, k * n, (k + 1) * n);
+    add_ends(mesh, region, 0, slices * n);
+    return mesh;
+}
+
+PolygonMesh csg_revolved(const CsgRegion& region, const CsgArguments& arguments) {
+    double least = 0;
+    double most = 0;
+    for (const Point2d& p : region.points) {
+        least = std::min(least, p[0]);
+        most = std::max(most, p[0]);
+    }
+    if (least < 0 && most > 0)
+        arguments.fail(ErrorCode::Input, "the region is on both sides of the axis x = 0");
+    const double given = arguments.number("angle", 360);
+    const bool is_full = std::fabs(given) >= 360 || given == 0;
+    const double angle = is_full ? 360 : given;
+    const double sides = csg_fragments(arguments, most - least);
+    const std::uint32_t steps =
+        layer_count(arguments, region, std::max(std::floor(sides * std::fabs(angle) / 360), 1.0));
+    const auto n = static_cast<std::uint32_t>(region.points.size());
+    PolygonMesh mesh;
+    for (std::uint32_t k = 0; k < steps + (is_full ? 0 : 1); ++k) {
+        const double at = (is_full ? 180 : 0) + angle * k / steps;
+        for (const Point2d& p : region.points)
+            mesh.points.push_back({p[0] * cosine_of_degrees(at), p[0] * sine_of_degrees(at), p[1]});
+    }
+    for (std::uint32_t k = 0; k < steps; ++k)
+        add_walls(mesh, region, k * n, (is_full && k + 1 == steps ? 0 : k + 1) * n);
+    if (!is_full) add_ends(mesh, region, 0, steps * n);
+    // Moved along +y, as here at first, a region of the plane xz lies the other way round.
+    if ((most > 0) == (angle > 0)) turn_over(mesh);
+    return mesh;
+}
+
+}  // namespace trisect::detail

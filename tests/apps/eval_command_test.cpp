@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "process.h"
+#include "scratch.h"
+
+namespace {
+
+using nlohmann::json;
+using trisect::test::Finished;
+using trisect::test::trisect;
+
+class EvalCommand : public trisect::test::Scratch {
+protected:
+    std::string model_ = write("m.csg", "difference() { cube(size = 4); cube(size = 2); }\n");
+};
+
+TEST_F(EvalCommand, WritesTheSolid) {
+    const json document = trisect({"eval", model_, "-o", path("m.off"), "--json"}).json();
+    EXPECT_EQ(document["schema"], "trisect.eval/1");
+    EXPECT_EQ(document["volume"], 56);
+    EXPECT_EQ(trisect({"info", path("m.off"), "--json"}).json()["volume"], 56);
+    EXPECT_EQ(trisect({"eval", model_, "-o", path("m.exact")}).code, 0);
+    EXPECT_TRUE(exists("m.exact"));
+}
+
+TEST_F(EvalCommand, StreamsAndSummary) {
+    const Finished run =
+        trisect({"eval", "-", "-o", "-", "--format", "obj", "--summary"}, {"cube(size = 2);", {}});
+    EXPECT_EQ(run.code, 0);
+    EXPECT_NE(run.out.find("v 0 0 0"), std::string::npos);
+    EXPECT_NE(run.err.find("volume       8"), std::string::npos);
+}
+
+TEST_F(EvalCommand, ErrorsHavePlaces) {
+    const std::string bad = write("bad.csg", "group() {\n  minkowski();\n}\n");
+    const Finished run = trisect({"eval", bad, "-o", path("x.stl"), "--json"});
+    EXPECT_EQ(run.code, 7);
+    EXPECT_EQ(run.json()["error"]["line"], 2);
+    EXPECT_EQ(run.json()["error"]["column"], 3);
+    EXPECT_NE(run.err.find("minkowski"), std::string::npos);
+    EXPECT_EQ(trisect({"eval", write("c.csg", "cube("), "-o", path("x.stl")}).code, 3);
+    EXPECT_FALSE(exists("x.stl"));
+}
+
+}  // namespace

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <trisect/bsp/csg/csg_evaluate.h>
+#include <trisect/bsp/solid_measure.h>
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace trisect {
+namespace {
+
+std::string volume_of(const std::string& text, CsgReport* report = nullptr) {
+    return exact_volume(evaluate_csg(parse_csg(text, "f"), {}, report)).to_string();
+}
+
+TEST(CsgEvaluate, BooleansOfBoxesAreExact) {
+    EXPECT_EQ(volume_of("cube(size = [2, 3, 4], center = true);"), "24");
+    EXPECT_EQ(volume_of("difference() { cube(size = 4); cube(size = [1, 2, 3]); }"), "58");
+    EXPECT_EQ(volume_of("intersection() { cube(size = 4);"
+                        "multmatrix([[1,0,0,3],[0,1,0,3],[0,0,1,3],[0,0,0,1]]) cube(size = 4); }"),
+              "1");
+    EXPECT_EQ(volume_of("cube(size = 1); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"
+                        "{ cube(size = 1); }"),
+              "2");
+    EXPECT_EQ(volume_of(""), "0");
+}
+
+TEST(CsgEvaluate, RoundShapesHaveTheFacetsOfTheManual) {
+    // A square with its corners on the axes.
+    EXPECT_EQ(volume_of("cylinder($fn = 4, h = 3, r1 = 2, r2 = 2);"), "24");
+    EXPECT_EQ(volume_of("cylinder($fn = 4, h = 3, r1 = 2, r2 = 0, center = true);"), "8");
+    EXPECT_EQ(volume_of("difference() { cube(size = [8, 8, 3], center = true);"
+                        "cylinder($fn = 4, h = 5, r1 = 2, r2 = 2, center = true); }"),
+              "168");
+    const auto counts_of = [](const std::string& text) {
+        return counts(evaluate_csg(parse_csg(text, "f"))).vertices;
+    };
+    EXPECT_EQ(counts_of("sphere($fn = 0, $fa = 12, $fs = 2, r = 10);"), 30U * 15U);
+    EXPECT_EQ(counts_of("sphere($fn = 0, $fa = 12, $fs = 2, r = 1);"), 5U * 3U);
+    EXPECT_EQ(counts_of("cylinder($fn = 0, $fa = 12, $fs = 2, h = 1, r1 = 3, r2 = 1);"), 20U);
+    EXPECT_EQ(counts_of("cylinder($fn = 7.9, h = 1, r1 = 3, r2 = 0);"), 8U);
+}
+
+TEST(CsgEvaluate, PolyhedraAreClockwiseSeenFromOutside) {
+    const std::string points = "points = [[0,0,0],[6,0,0],[0,1,0],[0,0,1]], ";
+    EXPECT_EQ(volume_of("polyhedron(" + points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);"),
+              "1");
+    try {
+        (void)volume_of("\n polyhedron(" + points + "faces = [[0,1,2],[0,3,1],[0,2,3]]);");
+        ADD_FAILURE();
+    } catch (const CsgError& e) {
+        EXPECT_EQ(e.code(), ErrorCode::InvalidSolid);
+        EXPECT_EQ(e.place().line, 2U);
+    }
+}
+
+TEST(CsgEvaluate, Modifiers) {
+    EXPECT_EQ(volume_of("cube(size = 1); *cube(size = 2); %cube(size = 3); #cube(size = 1);"), "1");
+    EXPECT_EQ(volume_of("cube(size = 5); multmatrix([[2,0,0,0],[0,2,0,0],[0,0,2,0],[0,0,0,1]])"
+                        "{ !cube(size = 2); }"),
+              "8");
+    EXPECT_EQ(volume_of("*minkowski() { cube(size = 1); } cube(size = 1);"), "1");
+}
+
+TEST(CsgEvaluate, RegionsAreBooleansOfPrisms) {
+    CsgReport report;
+    EXPECT_EQ(volume_of("difference() { square(size = [4, 3]); circle($fn = 4, r = 1); }", &report),
+              "23/2");
+    EXPECT_TRUE(report.is_flat);
+    // Odd: the path crosses itself; the second one is a hole.
+    EXPECT_EQ(volume_of("polygon(points = [[0,0],[2,2],[2,0],[0,2]], paths = undef);"), "2");
+    EXPECT_EQ(volume_of("polygon(points = [[0,0],[4,0],[4,4],[0,4],[1,1],[2,1],[2,2],[1,2]],"
+                        "paths = [[0,1,2,3],[4,5,6,7]]);"),
+              "15");
+    EXPECT_EQ(volume_of("linear_extrude(height = 5, center = true) { difference() {"
+                        "square(size = 4, center = true); square(size = 2, center = true); } }",
+                        &report),
+              "60");
+    EXPECT_FALSE(report.is_flat);
+    EXPECT_EQ(report.evaluations, 1U);
+}
+
+TEST(CsgEvaluate, TaperedTwistedAndTurnedExtrusions) {
+    EXPECT_EQ(volume_of("linear_extrude(height = 3, scale = [0, 0])"
+                        "square(size = 4, center = true);"),
+              "16");
+    EXPECT_EQ(volume_of("linear_extrude(height = 3, scale = 0.5) difference() {"
+                        "square(size = 4, center = true); square(size = 2, center = true); }"),
+              "21");
+    EXPECT_EQ(volume_of("rotate_extrude($fn = 4) square(size = [2, 3]);"), "24");
+    EXPECT_EQ(volume_of("rotate_extrude($fn = 4, angle = 90) square(size = [2, 3]);"), "6");
+    EXPECT_EQ(volume_of("rotate_extrude($fn = 4, angle = -180)"
+                        "multmatrix([[1,0,0,-2],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"
+                        "square(size = [2, 3]);"),
+              "12");
+    const double twisted = volume(evaluate_csg(
+        parse_csg("linear_extrude(height = 1, twist = 90, slices = 50) square(2);", "f")));
+    EXPECT_GT(twisted, 0.9);
+}
+
+TEST(CsgEvaluate, HullsAndTurnedGroups) {
+    EXPECT_EQ(volume_of("hull() { cube(size = 1);"
+                        "multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(size = 1); }"),
+              "3");
+    EXPECT_EQ(volume_of("linear_extrude(height = 2) hull() { square(size = 1);"
+                        "multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) square(size = 1);}"),
+              "6");
+    // Flush boxes stay one body under a turn that rounds corners.
+    CsgReport report;
+    const Solid turned = evaluate_csg(
+        parse_csg("multmatrix([[0.8,-0.6,0,0],[0.6,0.8,0,0],[0,0,1,0],[0,0,0,1]]) {"
+                  "cube(size = [1, 2, 1]); multmatrix([[1,0,0,1],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"
+                  "cube(size = 1); }",
+                  "f"),
+        {}, &report);
+    EXPECT_NEAR(volume(turned), 3, 1e-12);
+    EXPECT_EQ(report.evaluations, 2U);
+}
+
+TEST(CsgEvaluate, EqualShapesAreMadeOnce) {
+    CsgReport report;
+    EXPECT_EQ(volume_of("cube(size = 1); group() { color([1, 0, 0]) cube(size = 1); }", &report),
+              "1");
+    EXPECT_EQ(report.leaves, 2U);
+    EXPECT_EQ(report.meshes, 1U);
+}
+
+int code_of(const std::string& text) {
+    try {
+        (void)volume_of(text);
+    } catch (const Error& e) {
+        return static_cast<int>(e.code());
+    }
+    return 0;
+}
+
+TEST(CsgEvaluate, Refusals) {
+    EXPECT_EQ(code_of("minkowski() { cube(); }"), 7);
+    EXPECT_EQ(code_of("whatever();"), 7);
+    EXPECT_EQ(code_of("cube(size = inf);"), 3);
+    EXPECT_EQ(code_of("sphere(r = nan);"), 3);
+    EXPECT_EQ(code_of("cube(size = [1, 2]);"), 3);
+    EXPECT_EQ(code_of("sphere($fn = 1e9, r = 1);"), 5);
+    EXPECT_EQ(code_of("polygon(points = [[0, 0], [1, 0], [0, 1]], paths = [[0, 1, 3]]);"), 3);
+    EXPECT_EQ(code_of("multmatrix([[1, 0]]) cube();"), 3);
+    EXPECT_EQ(code_of("rotate_extrude() square(size = 2, center = true);"), 3);
+}
+
+}  // namespace
+}  // namespace trisect
