@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "csg_arguments.h"
+#include <trisect/bsp/csg/csg_arguments.h>
 
 #include <cmath>
 

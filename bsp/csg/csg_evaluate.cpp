@@ -18,9 +18,9 @@
 #include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/solid_transform.h>
 
-#include "csg_arguments.h"
-#include "csg_extrude.h"
-#include "csg_shapes.h"
+#include <trisect/bsp/csg/csg_arguments.h>
+#include <trisect/bsp/csg/csg_extrude.h>
+#include <trisect/bsp/csg/csg_shapes.h>
 
 namespace trisect {
 namespace {

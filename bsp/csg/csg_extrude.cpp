@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "csg_extrude.h"
+#include <trisect/bsp/csg/csg_extrude.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <trisect/brep/brep_mesh.h>
 
-#include "csg_shapes.h"
+#include <trisect/bsp/csg/csg_shapes.h>
 
 namespace trisect::detail {
 namespace {

@@ -11,7 +11,7 @@
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/solid.h>
 
-#include "csg_arguments.h"
+#include <trisect/bsp/csg/csg_arguments.h>
 
 namespace trisect::detail {
 

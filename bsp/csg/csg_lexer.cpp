@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "csg_lexer.h"
+#include <trisect/bsp/csg/csg_lexer.h>
 
 #include <charconv>
 #include <limits>
@@ -8,7 +8,7 @@
 namespace trisect::detail {
 namespace {
 
-// What the message shows of a word that nobody meant.
+// What a message shows of a word, in characters.
 constexpr std::size_t shown_length = 40;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }

@@ -2,8 +2,8 @@
 #include <limits>
 #include <utility>
 
-#include "csg_lexer.h"
-#include "csg_tree.h"
+#include <trisect/bsp/csg/csg_lexer.h>
+#include <trisect/bsp/csg/csg_tree.h>
 
 namespace trisect {
 namespace {

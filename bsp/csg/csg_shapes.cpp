@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "csg_shapes.h"
+#include <trisect/bsp/csg/csg_shapes.h>
 
 #include <algorithm>
 #include <cmath>

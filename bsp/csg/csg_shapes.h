@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shapes of modelling programs as meshes, with the facets that OpenSCAD's manual describes.
+// Shapes of modelling programs as meshes.
+// Facets are those that OpenSCAD's manual describes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/primitives/point_2d.h>
 
-#include "csg_arguments.h"
+#include <trisect/bsp/csg/csg_arguments.h>
 
 namespace trisect::detail {
 
