@@ -68,7 +68,7 @@ struct CsgTree {
 struct CsgLimits {
     std::uint32_t depth = 400;  ///< of nested nodes and lists together
     std::size_t nodes = 1'000'000;
-    std::size_t values = 50'000'000;  ///< numbers, texts and lists
+    std::size_t values = 10'000'000;  ///< numbers, texts and lists
 };
 
 /// Reads a program. O(n). `file` is the name in errors.
