@@ -117,10 +117,6 @@ private:
     [[nodiscard]] bool is_same(PointId value, PointId name);
     void conform_edges(std::size_t traced, std::size_t of_leaves);
     void conform_traced(std::span<const BoundaryEdge> edges);
-    void split_special(std::span<BoundaryEdge> edges, std::span<PointId> vertices);
-    [[nodiscard]] double along(PointId p, std::size_t axis) const {
-        return out_.bench.approximation(p).c[axis];
-    }
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -748,65 +744,10 @@ void Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
             vertices.insert(vertices.end(), {e.from, e.to});
         }
     }
-    std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    split_special(special, vertices);
-}
-
-// Many edges are divided by planes across axes: those on one side of a plane have only vertices of
-// that side inside them. An edge across the plane looks at all vertices.
-void Gatherer::split_special(std::span<BoundaryEdge> edges, std::span<PointId> vertices) {
-    constexpr std::size_t few = 512;
-    const auto split = [&](std::span<const BoundaryEdge> part) {
-        if (part.empty()) return;
-        splitter_.clear();
-        for (const PointId p : vertices) splitter_.add_candidate(p);
-        splitter_.split(part, out_.edges);
-    };
-    if (edges.size() <= few || vertices.size() <= few) return split(edges);
-    std::size_t axis = 0;
-    double longest = -1;
-    double error = 0;
-    for (const PointId p : vertices) error = std::max(error, out_.bench.approximation(p).error);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] =
-            std::ranges::minmax(vertices, {}, [&](PointId p) { return along(p, k); });
-        const double extent = along(high, k) - along(low, k);
-        if (extent > longest) {
-            longest = extent;
-            axis = k;
-        }
-    }
-    const auto middle = vertices.begin() + static_cast<std::ptrdiff_t>(vertices.size() / 2);
-    std::ranges::nth_element(vertices, middle, {}, [&](PointId p) { return along(p, axis); });
-    const double wall = along(*middle, axis);
-    // So far from the wall nothing is on its other side.
-    const double clear = 4 * error_slack * error;
-    const auto side = [&](const BoundaryEdge& e) {
-        const double a = along(e.from, axis) - wall;
-        const double b = along(e.to, axis) - wall;
-        return std::max(a, b) < -clear ? -1 : (std::min(a, b) > clear ? 1 : 0);
-    };
-    const auto across = std::partition(edges.begin(), edges.end(),
-                                       [&](const BoundaryEdge& e) { return side(e) < 0; });
-    const auto above =
-        std::partition(across, edges.end(), [&](const BoundaryEdge& e) { return side(e) == 0; });
-    split({across, above});
-    const std::span<BoundaryEdge> lower(edges.begin(), across);
-    const std::span<BoundaryEdge> upper(above, edges.end());
-    if (lower.size() + upper.size() < edges.size() / 4) {  // walls do not part them
-        split(lower);
-        split(upper);
-        return;
-    }
-    const auto recurse = [&](std::span<BoundaryEdge> part, double sign) {
-        std::vector<PointId> own;
-        for (const PointId p : vertices)
-            if (sign * (along(p, axis) - wall) > 0) own.push_back(p);
-        with_enough_stack([&] { split_special(part, own); });
-    };
-    recurse(lower, -1);
-    recurse(upper, 1);
+    if (special.empty()) return;
+    splitter_.clear();
+    for (const PointId p : vertices) splitter_.add_candidate(p);
+    splitter_.split(special, out_.edges);
 }
 
 // Edges of traced facets in general position, and of axis-perpendicular planes, which come last,

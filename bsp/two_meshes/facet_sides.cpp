@@ -4,8 +4,8 @@
 // is whatever facets lie in them: that gives nine of ten facets their side. What hangs together by
 // facets that nothing crosses is on one side as well, so the others get theirs from their
 // neighbours, or from a corner in such a cube. Sides themselves come from the crossings: an edge
-// that pierces one facet, and no other, has its ends on the two sides of it. And what reaches out
-// of the grid is far outside.
+// that pierces one facet, and no other, has its ends on the two sides of it. What reaches out of
+// the grid is far outside. Of parts that nothing pierces a line is followed to there.
 
 #include <trisect/bsp/two_meshes/facet_sides.h>
 
@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
+#include <trisect/bsp/two_meshes/point_side.h>
 
 namespace trisect::detail {
 
@@ -252,7 +253,7 @@ bool FacetSides::look_at_often_pierced_edges(const Crossings& crossings, std::si
 std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings& crossings,
                                                                 std::size_t operand,
                                                                 bool outer_below, bool below,
-                                                                const LatticeMesh* other) {
+                                                                const LatticeMesh& other) {
     mark_crossed(crossings, operand);
     join_uncrossed();
     sides_.assign(parents_.size(), Side::Unknown);
@@ -260,9 +261,35 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
         !look_at_pierced_edges(crossings, operand))
         return std::nullopt;
     auto facets = list_uncrossed(below);
-    if (facets || other == nullptr) return facets;
-    if (!look_at_often_pierced_edges(crossings, operand, *other)) return std::nullopt;
-    return list_uncrossed(below);
+    if (facets) return facets;
+    if (!look_at_often_pierced_edges(crossings, operand, other)) return std::nullopt;
+    facets = list_uncrossed(below);
+    if (facets) return facets;
+    const PointSide side_of(other, operand == 1, crossings.shift, outer_below);
+    return look_along_lines(side_of) ? list_uncrossed(below) : std::nullopt;
+}
+
+// Of what nothing else gives the side, from one point of each part that hangs together.
+bool FacetSides::look_along_lines(const PointSide& side_of) {
+    constexpr int most = 256;
+    int lines = 0;
+    const auto look_at = [&](std::uint32_t facet) {
+        const std::uint32_t point = mesh_.triangles[facet][0];
+        const std::uint32_t node = node_of(point);
+        sides_.resize(parents_.size(), Side::Unknown);
+        if (sides_[root(node)] != Side::Unknown) return true;
+        if (++lines > most) return false;
+        const std::optional<bool> below = side_of.is_below(mesh_.points[point]);
+        return below && set_side(node, *below ? Side::Below : Side::Above);
+    };
+    std::size_t next = 0;  // of the near ones
+    for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
+        const bool is_near = next < near_.size() && near_[next] == f;
+        const bool has_side = !is_near || (is_crossed_[next] == 0 && !has_equal(next));
+        next += is_near ? 1 : 0;
+        if (has_side && !look_at(f)) return false;
+    }
+    return true;
 }
 
 std::optional<std::vector<std::uint32_t>> FacetSides::list_uncrossed(bool below) {

@@ -17,6 +17,8 @@
 
 namespace trisect::detail {
 
+class PointSide;
+
 /// A mesh beside another one that it crosses, both embedded. All pairs of facets that cross are
 /// known, and nothing else of them touches.
 class FacetSides {
@@ -31,12 +33,11 @@ public:
     /// The facets that nothing crosses and that lie below the other mesh's facets, where `below`,
     /// or above them; in order. `operand` has been numbered by `crossings`; `outer_below`: far out
     /// one is below the other mesh's facets. Nothing when the side of a facet is not known: where
-    /// no edge of a part of the mesh, or of space, is pierced just once; or at all, where the other
-    /// mesh is there to decide in what order, both being of whole coordinates.
+    /// there are many parts that nothing pierces.
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> uncrossed(const Crossings& crossings,
                                                                       std::size_t operand,
                                                                       bool outer_below, bool below,
-                                                                      const LatticeMesh* other);
+                                                                      const LatticeMesh& other);
     /// Of the facets that are crossed and have no equal, in order: whether their first corners lie
     /// below the other mesh's facets, where `below`, or above them. \pre uncrossed()
     [[nodiscard]] std::vector<Crossings::Corner> first_corners(bool below);
@@ -65,6 +66,7 @@ private:
     [[nodiscard]] bool look_at_pierced_edges(const Crossings& crossings, std::size_t operand);
     [[nodiscard]] bool look_at_often_pierced_edges(const Crossings& crossings, std::size_t operand,
                                                    const LatticeMesh& other);
+    [[nodiscard]] bool look_along_lines(const PointSide& side_of);
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> list_uncrossed(bool below);
 
     const CubeGrid& grid_;

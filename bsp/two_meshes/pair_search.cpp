@@ -20,7 +20,6 @@
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/two_meshes/facet_clip.h>
-#include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
@@ -44,13 +43,12 @@ struct SharedSearch {
     MemoryBudget& memory;
     bool parallel;
     bool recognises_equal;
-    bool decides;  // doubtful pairs
+    bool keeps_sides;
     Frame frame;
     std::array<FacetClip, 2> clips;
     bool has_long_facets = false;           // set by the finder that begins
     std::atomic<bool> has_equal{false};     // all may stop
     std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
-    std::atomic<bool> is_hopeless{false};   // there is no direction as wanted: all may stop
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();
@@ -106,7 +104,9 @@ private:
         note_special(0, a);
         note_special(1, b);
     }
-    void look_at_plane(const FacetCorners& first, bool is_above, bool same_side);
+    void look_at_plane(const PolygonRef& first, bool is_above, bool same_side);
+    void keep_side(const PolygonRef& first, bool above, bool same_side, bool is_wish);
+    [[nodiscard]] bool is_plane_known(const PolygonRef& first, bool same_side) const;
     [[nodiscard]] bool leave_out(CellTask& task);
     void solve_both(std::array<CellTask, 2>& children);
     [[nodiscard]] bool settle_plane(const CellTask& task);
@@ -129,6 +129,7 @@ private:
     // Of planes in which two facets cover a part: the signs of the first one's normal, and whether
     // the second one faces the same way. A second pair with these says nothing new.
     std::vector<std::pair<std::array<int, 3>, bool>> known_planes_;
+    std::vector<std::uint8_t> kept_sides_;  // by facet of the first mesh
     std::vector<PolygonRef> polygons_;
 };
 
@@ -270,9 +271,7 @@ bool PairFinder::leave_out(CellTask& task) {
 }
 
 void PairFinder::solve(CellTask& task) {
-    if (search_.has_equal.load(std::memory_order_relaxed) ||
-        search_.is_hopeless.load(std::memory_order_relaxed))
-        return;
+    if (search_.has_equal.load(std::memory_order_relaxed)) return;
     const auto mark = arena_.mark();
     ++stats_.cells;
     check_budget(search_.options, stats_);
@@ -351,10 +350,7 @@ void PairFinder::compare(const CellTask& task) {
     if (search_.has_long_facets) draw_in_boxes(task);
     pairs_.relate_all_but(doubtful_, facets_, stats_);
     pairs_.add_to(crossings_, facets_);
-    if (!doubtful_.empty() && !search_.decides)
-        search_.is_uncertain.store(true, std::memory_order_relaxed);
-    for (const auto& [a, b] : doubtful_)
-        if (search_.decides) decide(a, b);
+    for (const auto& [a, b] : doubtful_) decide(a, b);
 }
 
 FacetCorners corners_of(const PolygonRef& ref) {
@@ -402,7 +398,7 @@ private:
 // plane no more is to be known than whether some cover a part of it together; so the pairs are not
 // compared, which may all have a part in common where long facets cover a face in two ways.
 bool PairFinder::settle_plane(const CellTask& task) {
-    if (!search_.decides || pairs_of(task) < many_pairs_of_plane) return false;
+    if (pairs_of(task) < many_pairs_of_plane) return false;
     FacetsOfPlane plane;
     if (!plane.list(task)) return false;
     for (std::size_t i = 0; i < 2; ++i)
@@ -419,13 +415,13 @@ bool PairFinder::settle_plane(const CellTask& task) {
 bool PairFinder::settle_side(std::span<const PolygonRef> first, std::span<const PolygonRef> second,
                              bool same_side) {
     if (first.empty() || second.empty()) return true;
-    const std::array<int, 3> normal = normal_signs(corners_of(first[0]));
+    const bool is_above = side_of_shifted(corners_of(first[0]), search_.operands.shift) > 0;
     std::size_t tries = 16 * (first.size() + second.size());
     for (const PolygonRef& a : first)
         for (const PolygonRef& b : second) {
             if (tries-- == 0) return false;
             if (coplanar_overlap(corners_of(a), corners_of(b)) != Overlap::Insides) continue;
-            look_at_plane(corners_of(a), search_.operands.shift.along(normal) > 0, same_side);
+            look_at_plane(a, is_above, same_side);
             return true;
         }
     return false;
@@ -471,18 +467,14 @@ void PairFinder::decide(LeafIndex first, LeafIndex second) {
                 search_.has_equal.store(true, std::memory_order_relaxed);
             } else {
                 note_special(a, b);
-                look_at_plane(corners_of(a), shift.along(normal_signs(corners_of(a))) > 0,
-                              pair.same_side);
+                look_at_plane(a, side_of_shifted(corners_of(a), shift) > 0, pair.same_side);
             }
             break;
         case ShiftedPair::Kind::Coplanar: {
-            if (is_special(0, a) && is_special(1, b) &&
-                is_known(normal_signs(corners_of(a)), pair.same_side))
-                break;
+            if (is_special(0, a) && is_special(1, b) && is_plane_known(a, pair.same_side)) break;
             const Overlap overlap = coplanar_overlap(corners_of(a), corners_of(b));
             if (overlap != Overlap::None) note_special(a, b);
-            if (overlap == Overlap::Insides)
-                look_at_plane(corners_of(a), pair.is_above, pair.same_side);
+            if (overlap == Overlap::Insides) look_at_plane(a, pair.is_above, pair.same_side);
             break;
         }
     }
@@ -499,23 +491,35 @@ void PairFinder::note_special(std::size_t operand, const PolygonRef& facet) {
 // open, the second one bounds nothing there: the first one stands for both, or the other mesh
 // covers it as well. On the other side the second one stands for both, or there is a result, or
 // none, of no thickness between them.
-void PairFinder::look_at_plane(const FacetCorners& first, bool is_above, bool same_side) {
+void PairFinder::look_at_plane(const PolygonRef& first, bool is_above, bool same_side) {
     const auto& operands = search_.operands.operands;
     const bool same_way = operands[0].inside_above == operands[1].inside_above;
     const bool wants_above = operands[0].is_open_below();
-    std::array<int, 3> direction = normal_signs(first);
+    const bool one_does = same_way == same_side;
+    bool& is_so = one_does ? directions_.is_as_wished : directions_.is_as_wanted;
+    is_so = is_so && is_above == wants_above;
+    if (search_.keeps_sides) return keep_side(first, wants_above, same_side, one_does);
+    std::array<int, 3> direction = normal_signs(corners_of(first));
     if (!is_known(direction, same_side)) known_planes_.emplace_back(direction, same_side);
     if (!wants_above)
         for (int& d : direction) d = -d;
-    const bool one_does = same_way == same_side;
     auto& list = one_does ? directions_.wished : directions_.wanted;
-    if (std::ranges::find(list, direction) == list.end()) {
-        list.push_back(direction);
-        if (!one_does && !shift_along(list))
-            search_.is_hopeless.store(true, std::memory_order_relaxed);
-    }
-    bool& is_so = one_does ? directions_.is_as_wished : directions_.is_as_wanted;
-    is_so = is_so && is_above == wants_above;
+    if (std::ranges::find(list, direction) == list.end()) list.push_back(direction);
+}
+
+// Each facet once for either way in which others of its plane face.
+void PairFinder::keep_side(const PolygonRef& first, bool above, bool same_side, bool is_wish) {
+    if (kept_sides_.empty()) kept_sides_.resize(first.source->facet_count());
+    const auto bit = static_cast<std::uint8_t>(same_side ? 1 : 2);
+    if ((kept_sides_[first.facet] & bit) != 0) return;
+    kept_sides_[first.facet] = static_cast<std::uint8_t>(kept_sides_[first.facet] | bit);
+    directions_.sides.push_back({first.facet, above, is_wish});
+}
+
+// Whether another pair of this facet says nothing new.
+bool PairFinder::is_plane_known(const PolygonRef& first, bool same_side) const {
+    if (!search_.keeps_sides) return is_known(normal_signs(corners_of(first)), same_side);
+    return !kept_sides_.empty() && (kept_sides_[first.facet] & (same_side ? 1 : 2)) != 0;
 }
 
 }  // namespace
@@ -533,26 +537,28 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
                         memory_,
                         parallel_,
                         recognises_equal,
-                        decides_,
+                        keeps_sides,
                         frame,
                         {FacetClip(frame, source(0).mesh()), FacetClip(frame, source(1).mesh())}};
     for (const TwoLists& lists : parts) {
         if (lists[0].empty() || lists[1].empty()) continue;
         search.finder().run(nodes_, lists);
-        if (search.has_equal.load() || search.is_hopeless.load()) break;
+        if (search.has_equal.load()) break;
     }
-    const bool is_hopeless = search.is_hopeless.load();
-    out.has_equal = search.has_equal.load() && !is_hopeless;
-    out.is_certain = !search.is_uncertain.load() && !is_hopeless;
+    out.has_equal = search.has_equal.load();
+    out.is_certain = !search.is_uncertain.load();
     search.finders.for_each([&](const PairFinder& f) {
         if (!out.has_equal) crossings.append(f.crossings());
         stats += f.stats();
         const Outcome& found = f.directions();
         out.wanted.insert(out.wanted.end(), found.wanted.begin(), found.wanted.end());
         out.wished.insert(out.wished.end(), found.wished.begin(), found.wished.end());
+        out.sides.insert(out.sides.end(), found.sides.begin(), found.sides.end());
         out.is_as_wanted = out.is_as_wanted && found.is_as_wanted;
         out.is_as_wished = out.is_as_wished && found.is_as_wished;
     });
+    std::ranges::sort(out.sides);
+    out.sides.erase(std::ranges::unique(out.sides).begin(), out.sides.end());
     return out;
 }
 

@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/evaluate_stats.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/two_meshes/growth_about.h>
 
 namespace trisect::detail {
 
@@ -24,7 +25,7 @@ class PairSearch {
 public:
     struct Outcome {
         bool has_equal = false;  ///< some facet has an equal; all else is left out then
-        bool is_certain = true;  ///< all pairs were decided, and no directions exclude each other
+        bool is_certain = true;  ///< all pairs were decided
         /// Directions, by their signs, in which the second mesh must be moved: else both meshes
         /// bound the result where they have a part of a plane in common. They do not depend on how
         /// it was moved.
@@ -33,20 +34,17 @@ public:
         std::vector<std::array<int, 3>> wished;
         bool is_as_wanted = true;  ///< it was moved so
         bool is_as_wished = true;
+        std::vector<WantedSide> sides;  ///< by facet, where `keeps_sides`
     };
 
-    /// `nodes` list the two meshes. Where `decides`, pairs that doubles leave open are decided.
-    /// \pre whole coordinates then
+    /// `nodes` list the two meshes.
     PairSearch(const std::array<const CellNode*, 2>& nodes, const EvaluateSettings& options,
-               MemoryBudget& memory, bool parallel, bool decides)
-        : nodes_(nodes),
-          options_(options),
-          memory_(memory),
-          parallel_(parallel),
-          decides_(decides) {}
+               MemoryBudget& memory, bool parallel)
+        : nodes_(nodes), options_(options), memory_(memory), parallel_(parallel) {}
 
     std::vector<TwoLists> parts;   ///< all of one list with all of the other, part after part
     bool recognises_equal = true;  ///< else they are as other facets of one plane
+    bool keeps_sides = false;      ///< instead of directions
 
     /// Appends the crossings, and facets in special position.
     [[nodiscard]] Outcome run(Crossings& crossings, EvaluateStats& stats) const;
@@ -56,7 +54,6 @@ private:
     const EvaluateSettings& options_;
     MemoryBudget& memory_;
     bool parallel_;
-    bool decides_;
 };
 
 }  // namespace trisect::detail

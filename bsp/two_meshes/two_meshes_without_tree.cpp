@@ -12,8 +12,8 @@
 // 3. Sides of facets follow from the crossings (facet_sides.cpp).
 //
 // Pairs that doubles leave open are decided by integers, as if one mesh were moved by less than any
-// number (pair_search.cpp). What is then still not known ends the attempt: the whole is evaluated
-// as all else.
+// number (pair_search.cpp), or grew so. What is then still not known ends the attempt: the whole is
+// evaluated as all else.
 
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 
@@ -34,6 +34,7 @@
 #include <trisect/bsp/two_meshes/cube_grid.h>
 #include <trisect/bsp/two_meshes/equal_facets.h>
 #include <trisect/bsp/two_meshes/facet_sides.h>
+#include <trisect/bsp/two_meshes/growth_about.h>
 #include <trisect/bsp/two_meshes/pair_search.h>
 #include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -146,13 +147,13 @@ public:
         : two_(two),
           near_(near),
           operands_(operands),
-          search_(two.nodes, options, memory, parallel,
-                  two.source(0).is_whole() && two.source(1).is_whole()) {}
+          search_(two.nodes, options, memory, parallel) {}
 
     [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats) {
         FoundPairs out;
         InfinitesimalShift shift = first_shift();
         search_.recognises_equal = recognises_equal;
+        search_.keeps_sides = false;
         search_.parts = {near_};
         // One finds equal facets, one another direction, which is as wanted.
         for (int turn = 0; turn < 3; ++turn) {
@@ -174,13 +175,45 @@ public:
                 return out;
             }
             if (!next) next = shift_along(outcome.wanted);
-            if (!next) return std::nullopt;
+            if (!next) return find_growing(std::move(out), stats);
             shift = *next;
         }
         return std::nullopt;
     }
 
 private:
+    // No direction is as wanted: the second mesh grows or shrinks.
+    [[nodiscard]] std::optional<FoundPairs> find_growing(FoundPairs out, EvaluateStats& stats) {
+        search_.keeps_sides = true;
+        InfinitesimalShift shift = first_growth();
+        for (int turn = 0; turn < 3; ++turn) {
+            out.crossings = operands_;
+            out.crossings.shift = shift;
+            EvaluateStats found;
+            const PairSearch::Outcome outcome = search_.run(out.crossings, found);
+            if (!outcome.is_certain) return std::nullopt;
+            if (outcome.is_as_wanted) {
+                stats += found;
+                finish(out);
+                return out;
+            }
+            const auto next = growth_about(*two_.meshes[0], outcome.sides);
+            if (!next) return std::nullopt;
+            shift = *next;
+        }
+        return std::nullopt;
+    }
+
+    // About the middle of what both have in common.
+    [[nodiscard]] InfinitesimalShift first_growth() const {
+        InfinitesimalShift shift;
+        const Box& b = two_.common;
+        const auto middle = [&](std::size_t k) { return b.lo[k] + (b.hi[k] - b.lo[k]) / 2; };
+        shift.growth = 1;
+        shift.centre = {middle(0), middle(1), middle(2)};
+        return shift;
+    }
+
     // Where one mesh stands on the other, the direction that will be wanted.
     [[nodiscard]] InfinitesimalShift first_shift() const {
         const bool wants_above = operands_.operands[0].is_open_below();
@@ -227,14 +260,13 @@ std::optional<TwoLists> facets_beside(const TwoMeshes& two, const CubeGrid& grid
     Crossings& crossings = found.crossings;
     std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
     std::array<std::vector<Crossings::Corner>, 2> corners;
-    const bool whole = two.source(0).is_whole() && two.source(1).is_whole();
     const auto find = [&](std::size_t i) {
         const Crossings::Operand& other = crossings.operands[1 - i];
         const std::span<const Fate> fates =
             found.equal ? std::span<const Fate>(found.equal->fates[i]) : std::span<const Fate>();
         FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i], fates);
         facets[i] = sides.uncrossed(crossings, i, is_below_far_out(*solids[1 - i], other),
-                                    other.is_open_below(), whole ? two.meshes[1 - i] : nullptr);
+                                    other.is_open_below(), *two.meshes[1 - i]);
         if (facets[i] && !crossings.special.empty())
             corners[i] = sides.first_corners(other.is_open_below());
     };

@@ -218,6 +218,58 @@ TEST(Undivided, NotWhereOneMeshIsIndexedOrMuchLarger) {
     EXPECT_EQ(trisect::detail::state_of(trisect::evaluate(same - b))->lazy_tree(), nullptr);
 }
 
+// A tool that is flush with a part on both of its sides, or on all: no shift uncovers all that they
+// share, growth does. The same with coordinates behind the point.
+TEST(Undivided, ToolsThatAreFlushOnOppositeSides) {
+    Count count;
+    const Operand part = reference::box({0, 0, 0}, {900, 700, 100});
+    const std::array<std::array<reference::LatticePoint, 2>, 4> tools{
+        {{{{100, 100, 0}, {300, 350, 100}}},
+         {{{0, 100, 0}, {900, 350, 100}}},
+         {{{0, 0, 0}, {900, 700, 100}}},
+         {{{0, 300, 0}, {450, 700, 100}}}}};
+    for (std::uint64_t seed = 0; seed < 8; ++seed)
+        for (const auto& [low, high] : tools) {
+            const auto moved = [&](Operand o) {
+                if (seed == 0) return o;
+                reference::Random random(seed);
+                return engines::mapped(o, random);
+            };
+            const trisect::Expression a = solid(moved(part));
+            const trisect::Expression b = solid(moved(reference::box(low, high)));
+            for (const trisect::Expression& e : {a | b, a & b, a - b, b - a})
+                expect_same_as_divided(e, 4, count);
+        }
+    EXPECT_EQ(count.undivided, count.tried);
+}
+
+TEST(Undivided, SpecialPositionOfCoordinatesWithFractions) {
+    int wide = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        trisect::PolygonMesh sphere = trisect::make_icosphere(0.1, 3);
+        for (auto& p : sphere.points) p[(k + 1) % 3] += 1000.1;
+        trisect::PolygonMesh moved = sphere;
+        for (auto& p : moved.points) p[k] += std::ldexp(1.0, -5);
+        const trisect::Solid a = trisect::Solid::from_mesh(sphere);
+        const trisect::Solid b = trisect::Solid::from_mesh(moved);
+        wide += trisect::detail::state_of(a)->whole ? 0 : 1;
+        for (const trisect::Expression& e :
+             {trisect::Expression(a) | b, trisect::Expression(a) & b, trisect::Expression(a) - b}) {
+            const trisect::Solid result = trisect::evaluate(e);
+            ASSERT_NE(trisect::detail::state_of(result)->lazy_tree(), nullptr);
+            const trisect::PolygonMesh mesh = engines::boundary_mesh(result);
+            EXPECT_EQ(engines::open_edge(mesh), "");
+            EXPECT_FALSE(trisect::detail::state_of(result)->lazy_tree()->is_cut());
+            const trisect::PolygonMesh expected = engines::boundary_mesh(evaluate_by_cells(e));
+            EXPECT_EQ(mesh.points.size(), expected.points.size());
+            EXPECT_TRUE(trisect::evaluate(trisect::Expression(result) ^
+                                          trisect::evaluate(e, {.leaf_polygons = 3}))
+                            .is_empty());
+        }
+    }
+    EXPECT_EQ(wide, 3);
+}
+
 // Faces, edges and corners coincide.
 TEST(Undivided, PairsOnASmallGrid) {
     Count count;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Every vertex against every edge would be quadratic. Candidates are sorted along one axis, an edge
-// looks at those between its ends, and doubles with bounds leave the few that may lie on it to the
-// exact predicates: on both planes of the edge's line, and between its ends along an axis.
+// Every vertex against every edge would be quadratic. Few candidates are sorted along one axis, and
+// an edge looks at those between its ends; many are in a tree of boxes. Doubles with bounds leave
+// those that may lie on the edge to the exact predicates: on both planes of its line, and between
+// its ends along an axis.
 
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 
@@ -88,6 +89,7 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
 void EdgeSplitter::clear() {
     for (const Candidate& c : candidates_) rank_[as_index(c.point)] = -1;
     candidates_.clear();
+    boxes_.clear();
 }
 
 void EdgeSplitter::add_candidate(PointId p) {
@@ -105,6 +107,7 @@ void EdgeSplitter::sort_candidates() {
     lo.fill(HUGE_VAL);
     hi.fill(-HUGE_VAL);
     widest_ = 0;
+    constexpr std::size_t few = 128;
     for (const Candidate& c : candidates_) {
         widest_ = std::max(widest_, bench_.approximation(c.point).error);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -112,6 +115,7 @@ void EdgeSplitter::sort_candidates() {
             hi[k] = std::max(hi[k], c.c[k]);
         }
     }
+    if (candidates_.size() > few) return boxes_.build(candidates_);
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
         if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
@@ -123,10 +127,25 @@ void EdgeSplitter::sort_candidates() {
         rank_[as_index(candidates_[i].point)] = static_cast<std::int32_t>(i);
 }
 
-// What is between the ends along axis_ comes between them; what is farther out by no more than the
-// errors allow comes right before or after.
 void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     inside_.clear();
+    if (boxes_.is_empty()) {
+        find_inside_sorted(e);
+    } else {
+        find_inside_boxes(e);
+    }
+    if (inside_.size() > 1) sort_inside(e, separating_axis(bench_, e.from, e.to));
+}
+
+void EdgeSplitter::look_at(const BoundaryEdge& e, const Candidate& candidate) {
+    const int axis = separating_axis(bench_, e.from, e.to);
+    if (lies_inside(bench_, candidate.point, e, facets_[as_index(e.facet)].support, axis))
+        inside_.push_back(candidate.point);
+}
+
+// What is between the ends along axis_ comes between them; what is farther out by no more than the
+// errors allow comes right before or after.
+void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e) {
     const Candidate* const first = candidates_.data();
     const Candidate* const end = first + candidates_.size();
     const Candidate* const from = first + rank_[as_index(e.from)];
@@ -140,13 +159,19 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     while (high != end && high->c[axis_] <= high_at) ++high;
     if (high - low == 2) return;  // the ends
     const EdgeFilter filter(from->c, to->c, 3 * widest_);
-    for (const Candidate* it = low; it != high; ++it) {
-        if (it == from || it == to || !filter.may_contain(it->c)) continue;
-        const int axis = separating_axis(bench_, e.from, e.to);
-        if (lies_inside(bench_, it->point, e, facets_[as_index(e.facet)].support, axis))
-            inside_.push_back(it->point);
-    }
-    if (inside_.size() > 1) sort_inside(e, separating_axis(bench_, e.from, e.to));
+    for (const Candidate* it = low; it != high; ++it)
+        if (it != from && it != to && filter.may_contain(it->c)) look_at(e, *it);
+}
+
+void EdgeSplitter::find_inside_boxes(const BoundaryEdge& e) {
+    const std::array<double, 3>& from = bench_.approximation(e.from).c;
+    const std::array<double, 3>& to = bench_.approximation(e.to).c;
+    const EdgeFilter filter(from, to, 3 * widest_);
+    boxes_.for_each_near(
+        from, to, error_slack * (3 * widest_), [&](std::span<const Candidate> candidates) {
+            for (const Candidate& c : candidates)
+                if (filter.may_contain(c.c) && c.point != e.from && c.point != e.to) look_at(e, c);
+        });
 }
 
 void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis) {

@@ -3,21 +3,21 @@
 // EdgeSplitter: insertion of vertices that lie inside edges (T-vertices).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
+#include <trisect/bsp/assembly/parts/vertex_boxes.h>
 #include <trisect/bsp/cells/workbench.h>
 
 namespace trisect::detail {
 
 /// Splits edges at the candidate vertices that lie inside them. Holds scratch memory.
 ///
-/// Edges and candidates should belong to one leaf or one facet: the cost is near linear in the
-/// candidates whose range along the longest axis meets an edge's.
+/// An edge looks at few candidates that are not near it: O(log n) boxes of a tree over them where
+/// they are many, else those whose range along the longest axis meets its own.
 class EdgeSplitter {
 public:
     EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
@@ -29,17 +29,18 @@ public:
     void split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out);
 
 private:
-    struct Candidate {
-        std::array<double, 3> c{};  // approximate
-        PointId point = -1;
-    };
+    using Candidate = VertexBoxes::Vertex;
     void sort_candidates();
     void find_inside(const BoundaryEdge& e);
+    void find_inside_sorted(const BoundaryEdge& e);
+    void find_inside_boxes(const BoundaryEdge& e);
+    void look_at(const BoundaryEdge& e, const Candidate& candidate);
     void sort_inside(const BoundaryEdge& e, int axis);
 
     const Workbench& bench_;
     const std::vector<BoundaryFacet>& facets_;
     std::vector<Candidate> candidates_;
+    VertexBoxes boxes_;               // of many candidates
     std::vector<std::int32_t> rank_;  // by point: its place among the candidates, -1 is none
     std::size_t axis_ = 0;            // that they are sorted along
     double widest_ = 0;               // error of a candidate

@@ -10,14 +10,20 @@
 // (Edelsbrunner and Mücke, "Simulation of simplicity", 1990, move every corner by itself; one shift
 // for a whole mesh is enough here, since a mesh is embedded and pairs are of two meshes.)
 //
-// Differences of coordinates are below 2^54, normals below 2^109, values of planes below 2^165.
+// A mesh that grows by a factor 1 + d about c has each corner x moved by d (x - c). Directions of
+// its edges stay, and its normals are multiplied by (1 + d)^2, so all determinants are linear in d,
+// up to a positive factor. Of a plane, normal · (x - c) for its own points x is what the plane's
+// value is at c, negated. Where a derivative by d is 0, so is the determinant for all d, and the
+// shift along the axes decides.
 
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
+#include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/predicates.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -25,66 +31,141 @@ namespace trisect::detail {
 
 namespace {
 
-using Whole = std::array<std::int64_t, 3>;
-using Normal = std::array<Int128, 3>;
-using Value = WideInt<3>;
-
-Whole whole(const LatticePoint& p) {
-    return {p.x.to_integer(), p.y.to_integer(), p.z.to_integer()};
+int sign_of(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
+template <int N>
+int sign_of(const WideInt<N>& v) {
+    return v.sign();
 }
 
-Whole operator-(const Whole& a, const Whole& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+// Whole coordinates: lengths are below 2^54, products of two below 2^109, and values of planes
+// below 2^165.
+struct WholeNumbers {
+    using Length = std::int64_t;
+    using Area = Int128;
+    using Value = WideInt<3>;
 
-Normal cross(const Whole& u, const Whole& v) {
-    Normal n{};
+    static Length length(Coordinate c) { return c.to_integer(); }
+    static Area product(Length a, Length b) { return Int128{a} * b; }
+    static Value product(Area a, Length b) { return multiply<3>(WideInt<2>(a), WideInt<1>(b)); }
+    static WideInt<5> product(Area a, const Value& b) { return multiply<5>(WideInt<2>(a), b); }
+    static WideInt<6> product(const Value& a, const Value& b) { return multiply<6>(a, b); }
+};
+
+// In units of 2^-fraction_limit: lengths are below 2^127, components of normals below 2^255, and
+// values of planes below 3 · 2^381.
+struct Fractions {
+    using Length = WideInt<2>;
+    using Area = WideInt<4>;
+    using Value = WideInt<6>;
+
+    static Length length(Coordinate c) { return {scaled_integer(c, fraction_limit)}; }
+    static Area product(const Length& a, const Length& b) { return multiply<4>(a, b); }
+    static Value product(const Area& a, const Length& b) { return multiply<6>(a, b); }
+    static WideInt<10> product(const Area& a, const Value& b) { return multiply<10>(a, b); }
+    static WideInt<12> product(const Value& a, const Value& b) { return multiply<12>(a, b); }
+};
+
+template <class N>
+using Lengths = std::array<typename N::Length, 3>;
+template <class N>
+using Normal = std::array<typename N::Area, 3>;
+
+template <class N>
+Lengths<N> lengths(const LatticePoint& p) {
+    return {N::length(p.x), N::length(p.y), N::length(p.z)};
+}
+
+template <class Length>
+std::array<Length, 3> minus(const std::array<Length, 3>& a, const std::array<Length, 3>& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+template <class N>
+Normal<N> cross(const Lengths<N>& u, const Lengths<N>& v) {
+    Normal<N> n{};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3;
         const std::size_t j = (k + 2) % 3;
-        n[k] = Int128{u[i]} * v[j] - Int128{u[j]} * v[i];
+        n[k] = N::product(u[i], v[j]) - N::product(u[j], v[i]);
     }
     return n;
 }
 
-Value dot(const Normal& n, const Whole& v) {
-    Value sum;
-    for (std::size_t k = 0; k < 3; ++k) sum += multiply<3>(WideInt<2>(n[k]), WideInt<1>(v[k]));
+template <class N>
+typename N::Value dot(const Normal<N>& n, const Lengths<N>& v) {
+    typename N::Value sum;
+    for (std::size_t k = 0; k < 3; ++k) sum += N::product(n[k], v[k]);
     return sum;
 }
 
-int sign_of(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
-
-std::array<int, 3> signs_of(const Normal& n) {
+template <class Area>
+std::array<int, 3> signs_of(const std::array<Area, 3>& n) {
     return {sign_of(n[0]), sign_of(n[1]), sign_of(n[2])};
 }
 
+template <class N>
 struct Facet {
-    std::array<Whole, 3> corners{};
-    Normal normal{};
+    std::array<Lengths<N>, 3> corners{};
+    Normal<N> normal{};
 
     explicit Facet(const FacetCorners& points) {
-        for (std::size_t i = 0; i < 3; ++i) corners[i] = whole(*points[i]);
-        normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = lengths<N>(*points[i]);
+        normal = cross<N>(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     }
-    [[nodiscard]] Value value(const Whole& p) const { return dot(normal, p - corners[0]); }
+    [[nodiscard]] typename N::Value value(const Lengths<N>& p) const {
+        return dot<N>(normal, minus(p, corners[0]));
+    }
+};
+
+// The shift as derivatives of signs.
+template <class N>
+class Derivatives {
+public:
+    explicit Derivatives(const InfinitesimalShift& shift)
+        : shift_(shift), centre_(lengths<N>(shift.centre)) {}
+
+    // Of the value that a facet's plane has at points of the mesh that is moved, in the plane. That
+    // of a moved plane at points in it is the negative of this.
+    [[nodiscard]] int of_value(const Facet<N>& facet) const {
+        if (shift_.growth != 0)
+            if (const int sign = facet.value(centre_).sign(); sign != 0)
+                return -shift_.growth * sign;
+        return shift_.along(signs_of(facet.normal));
+    }
+    // Of the product of a vector and a point that is moved.
+    [[nodiscard]] int of_product(const Normal<N>& n, const Lengths<N>& point) const {
+        if (shift_.growth != 0)
+            if (const int sign = dot<N>(n, minus(point, centre_)).sign(); sign != 0)
+                return shift_.growth * sign;
+        return shift_.along(signs_of(n));
+    }
+    [[nodiscard]] const Lengths<N>& centre() const { return centre_; }
+
+private:
+    const InfinitesimalShift& shift_;
+    Lengths<N> centre_;
 };
 
 // The corners of a facet and the plane of another one; `derivative` is the sign of what the shift
 // adds to their values.
+template <class N>
 struct CornerSigns {
     std::array<double, 3> value{};  // off by less than 2^-51 of it
     std::array<int, 3> sign{};
     unsigned on = 0;  // without the shift
     int above = 0;
 
-    CornerSigns(const Facet& plane, const Facet& facet, int derivative) {
+    template <class Derivative>
+    CornerSigns(const Facet<N>& plane, const Facet<N>& facet, const Derivative& derivative) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const Value v = plane.value(facet.corners[i]);
+            const typename N::Value v = plane.value(facet.corners[i]);
             value[i] = v.to_double();
             sign[i] = v.sign();
-            if (sign[i] == 0) {
-                on |= 1U << i;
-                sign[i] = derivative;
-            }
+            if (sign[i] == 0) on |= 1U << i;
+        }
+        const int moved = on != 0 ? derivative() : 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (sign[i] == 0) sign[i] = moved;
             above += sign[i] > 0 ? 1 : 0;
         }
     }
@@ -98,16 +179,17 @@ struct CornerSigns {
 
 // A facet's corners, the lonely one first, and turned over if need be so that the other facet's
 // lonely corner is above it (filtered_pair_relation.cpp).
+template <class N>
 struct NumberedCorners {
     std::array<std::size_t, 3> corner;
-    const std::array<Whole, 3>& points;
+    const std::array<Lengths<N>, 3>& points;
 
-    NumberedCorners(const std::array<Whole, 3>& all, std::size_t lonely, bool turned)
+    NumberedCorners(const std::array<Lengths<N>, 3>& all, std::size_t lonely, bool turned)
         : points(all) {
         corner = {lonely, (lonely + 1) % 3, (lonely + 2) % 3};
         if (turned) std::swap(corner[1], corner[2]);
     }
-    [[nodiscard]] const Whole& operator[](std::size_t i) const { return points[corner[i]]; }
+    [[nodiscard]] const Lengths<N>& operator[](std::size_t i) const { return points[corner[i]]; }
     [[nodiscard]] std::int8_t edge_to(std::size_t i) const {
         const std::size_t a = corner[0];
         const std::size_t b = corner[i];
@@ -136,7 +218,8 @@ Approximation between(const LatticePoint& a, double value_a, const LatticePoint&
 }
 
 // Where the edge from the lonely corner to corner i goes through the other plane.
-void set_end(const FacetCorners& points, const NumberedCorners& t, const CornerSigns& sides,
+template <class N>
+void set_end(const FacetCorners& points, const NumberedCorners<N>& t, const CornerSigns<N>& sides,
              std::size_t i, bool of_second, FacetCrossing::End& end) {
     end.of_second = of_second;
     end.edge = t.edge_to(i);
@@ -158,25 +241,32 @@ bool are_equal(const FacetCorners& a, const FacetCorners& b) {
     });
 }
 
-bool point_the_same_way(const Normal& a, const Normal& b) {
+template <class Area>
+bool point_the_same_way(const std::array<Area, 3>& a, const std::array<Area, 3>& b) {
     for (std::size_t k = 0; k < 3; ++k)
         if (const int s = sign_of(a[k]); s != 0) return s == sign_of(b[k]);
     return true;
 }
 
-}  // namespace
+bool are_whole(std::initializer_list<const FacetCorners*> facets) {
+    return std::ranges::all_of(facets, [](const FacetCorners* f) {
+        return std::ranges::all_of(*f, [](const LatticePoint* p) { return p->is_whole(); });
+    });
+}
 
-ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second,
-                           const InfinitesimalShift& shift) {
+template <class N>
+ShiftedPair relate(const FacetCorners& first, const FacetCorners& second,
+                   const InfinitesimalShift& shift) {
     ShiftedPair out;
-    const Facet a(first);
-    const Facet b(second);
+    const Facet<N> a(first);
+    const Facet<N> b(second);
+    const Derivatives<N> derivatives(shift);
     if (are_equal(first, second)) {
         out.kind = ShiftedPair::Kind::Equal;
         out.same_side = point_the_same_way(a.normal, b.normal);
         return out;
     }
-    const CornerSigns of_b(a, b, shift.along(signs_of(a.normal)));
+    const CornerSigns<N> of_b(a, b, [&] { return derivatives.of_value(a); });
     if (of_b.on == 7) {
         out.kind = ShiftedPair::Kind::Coplanar;
         out.is_above = of_b.above == 3;
@@ -187,7 +277,7 @@ ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second
         out.touches = of_b.on != 0;
         return out;
     }
-    const CornerSigns of_a(b, a, -shift.along(signs_of(b.normal)));
+    const CornerSigns<N> of_a(b, a, [&] { return -derivatives.of_value(b); });
     out.touches = of_b.on != 0 || of_a.on != 0;
     if (of_a.is_off()) {
         out.touches = of_a.on != 0;
@@ -197,15 +287,15 @@ ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second
     const std::size_t lonely_b = of_b.lonely();
     const bool turned_a = of_b.sign[lonely_b] < 0;
     const bool turned_b = of_a.sign[lonely_a] < 0;
-    const NumberedCorners p(a.corners, lonely_a, turned_a);
-    const NumberedCorners q(b.corners, lonely_b, turned_b);
+    const NumberedCorners<N> p(a.corners, lonely_a, turned_a);
+    const NumberedCorners<N> q(b.corners, lonely_b, turned_b);
     // The sign of det(p0 - qj, pi - qj, q0 - qj); its derivative is (pi - p0) × (qj - q0).
     const auto order = [&](std::size_t i, std::size_t j) {
-        const Normal n = cross(p[i] - q[j], q[0] - q[j]);
-        const int sign = dot(n, p[0] - q[j]).sign();
+        const Normal<N> n = cross<N>(minus(p[i], q[j]), minus(q[0], q[j]));
+        const int sign = dot<N>(n, minus(p[0], q[j])).sign();
         if (sign != 0) return sign;
         out.touches = true;
-        return shift.along(signs_of(cross(p[i] - p[0], q[j] - q[0])));
+        return derivatives.of_product(cross<N>(minus(p[i], p[0]), minus(q[j], q[0])), q[0]);
     };
     // What decides that they are apart decides it without the shift as well, if it does not need
     // it.
@@ -237,25 +327,26 @@ ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second
 }
 
 // Where they are apart, or have only outlines in common, an edge of one of them parts them.
-Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second) {
-    const std::array<Facet, 2> facets{Facet(first), Facet(second)};
+template <class N>
+Overlap overlap(const FacetCorners& first, const FacetCorners& second) {
+    const std::array<Facet<N>, 2> facets{Facet<N>(first), Facet<N>(second)};
     Overlap out = Overlap::Insides;
     std::size_t axis = 0;
-    while (axis < 2 && facets[0].normal[axis] == 0) ++axis;
+    while (axis < 2 && sign_of(facets[0].normal[axis]) == 0) ++axis;
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     for (std::size_t side = 0; side < 2; ++side) {
-        const Facet& f = facets[side];
-        const Facet& g = facets[1 - side];
+        const Facet<N>& f = facets[side];
+        const Facet<N>& g = facets[1 - side];
         const int inner = sign_of(f.normal[axis]);
         for (std::size_t e = 0; e < 3; ++e) {
-            const Whole& from = f.corners[e];
-            const Whole along = f.corners[(e + 1) % 3] - from;
+            const Lengths<N>& from = f.corners[e];
+            const Lengths<N> along = minus(f.corners[(e + 1) % 3], from);
             int nearest = -1;
-            for (const Whole& p : g.corners) {
-                const Whole to = p - from;
-                nearest = std::max(
-                    nearest, inner * sign_of(Int128{along[u]} * to[v] - Int128{along[v]} * to[u]));
+            for (const Lengths<N>& p : g.corners) {
+                const Lengths<N> to = minus(p, from);
+                const auto left = N::product(along[u], to[v]) - N::product(along[v], to[u]);
+                nearest = std::max(nearest, inner * sign_of(left));
             }
             if (nearest < 0) return Overlap::None;
             if (nearest == 0) out = Overlap::Outlines;
@@ -264,17 +355,18 @@ Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second) 
     return out;
 }
 
-std::array<int, 3> normal_signs(const FacetCorners& facet) { return signs_of(Facet(facet).normal); }
-
 // An edge from p to q goes through the plane of normal n and value v at v(p) / (v(p) - v(q)) of its
 // length. A shift s of the plane takes n·s from v(p), one of the edge adds it, and either leaves
-// the difference as it is.
-int order_along_shifted(const LatticePoint& from, const LatticePoint& to, bool is_second,
-                        const FacetCorners& one, const FacetCorners& other,
-                        const InfinitesimalShift& shift) {
-    const std::array<Facet, 2> facets{Facet(one), Facet(other)};
-    const Whole p = whole(from);
-    const Whole q = whole(to);
+// the difference as it is. Growth about c takes -v(c) and adds v(p) - v(c); of the sums below, the
+// part with v(p) is 0.
+template <class N>
+int order_along(const LatticePoint& from, const LatticePoint& to, bool is_second,
+                const FacetCorners& one, const FacetCorners& other,
+                const InfinitesimalShift& shift) {
+    const std::array<Facet<N>, 2> facets{Facet<N>(one), Facet<N>(other)};
+    const Lengths<N> p = lengths<N>(from);
+    const Lengths<N> q = lengths<N>(to);
+    using Value = typename N::Value;
     std::array<Value, 2> start;
     std::array<Value, 2> drop;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -282,15 +374,99 @@ int order_along_shifted(const LatticePoint& from, const LatticePoint& to, bool i
         drop[i] = start[i] - facets[i].value(q);
     }
     const int drops = drop[0].sign() * drop[1].sign();
-    const auto ahead = multiply<6>(start[0], drop[1]) - multiply<6>(start[1], drop[0]);
-    if (const int sign = ahead.sign(); sign != 0) return sign * drops;
-    std::array<int, 3> moved;
-    for (std::size_t k = 0; k < 3; ++k)
-        moved[k] = (multiply<5>(WideInt<2>(facets[0].normal[k]), drop[1]) -
-                    multiply<5>(WideInt<2>(facets[1].normal[k]), drop[0]))
-                       .sign();
-    const int sign = shift.along(moved) * drops;
-    return is_second ? sign : -sign;
+    const auto ahead = [&](const std::array<Value, 2>& v) {
+        return (N::product(v[0], drop[1]) - N::product(v[1], drop[0])).sign();
+    };
+    if (const int sign = ahead(start); sign != 0) return sign * drops;
+    int moved = 0;
+    if (shift.growth != 0) {
+        const Lengths<N> centre = lengths<N>(shift.centre);
+        moved = -shift.growth * ahead({facets[0].value(centre), facets[1].value(centre)});
+    }
+    if (moved == 0) {
+        std::array<int, 3> signs;
+        for (std::size_t k = 0; k < 3; ++k)
+            signs[k] = (N::product(facets[0].normal[k], drop[1]) -
+                        N::product(facets[1].normal[k], drop[0]))
+                           .sign();
+        moved = shift.along(signs);
+    }
+    return (is_second ? moved : -moved) * drops;
+}
+
+// The line goes through the facet where it passes all of its edges on one side. With d = q - p the
+// sign for an edge from a to b is that of det(d, b - a, a - p); its derivative is d × (b - a),
+// along what moves the edge or against what moves the line.
+template <class N>
+std::optional<int> passage(const LatticePoint& from, const LatticePoint& to, bool is_second,
+                           const FacetCorners& corners, const InfinitesimalShift& shift) {
+    const Facet<N> facet(corners);
+    const Derivatives<N> derivatives(shift);
+    const Lengths<N> p = lengths<N>(from);
+    const Lengths<N> q = lengths<N>(to);
+    const auto side = [&](const Lengths<N>& at) {
+        const int sign = facet.value(at).sign();
+        const int moved = sign != 0 ? 0 : derivatives.of_value(facet);
+        return sign != 0 ? sign : (is_second ? moved : -moved);
+    };
+    const int start = side(p);
+    if (start == side(q)) return 0;
+    const Lengths<N> d = minus(q, p);
+    for (std::size_t e = 0; e < 3; ++e) {
+        const Lengths<N>& a = facet.corners[e];
+        const Normal<N> n = cross<N>(d, minus(facet.corners[(e + 1) % 3], a));
+        int sign = dot<N>(n, minus(a, p)).sign();
+        if (sign == 0)
+            sign = is_second ? -derivatives.of_product(n, p) : derivatives.of_product(n, a);
+        if (sign == 0) return std::nullopt;
+        if (sign != start) return 0;
+    }
+    return -start;
+}
+
+bool is_whole(const InfinitesimalShift& shift) {
+    return shift.growth == 0 || shift.centre.is_whole();
+}
+
+}  // namespace
+
+ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second,
+                           const InfinitesimalShift& shift) {
+    return are_whole({&first, &second}) && is_whole(shift)
+               ? relate<WholeNumbers>(first, second, shift)
+               : relate<Fractions>(first, second, shift);
+}
+
+Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second) {
+    return are_whole({&first, &second}) ? overlap<WholeNumbers>(first, second)
+                                        : overlap<Fractions>(first, second);
+}
+
+std::array<int, 3> normal_signs(const FacetCorners& facet) {
+    return are_whole({&facet}) ? signs_of(Facet<WholeNumbers>(facet).normal)
+                               : signs_of(Facet<Fractions>(facet).normal);
+}
+
+int side_of_shifted(const FacetCorners& facet, const InfinitesimalShift& shift) {
+    return are_whole({&facet}) && is_whole(shift)
+               ? Derivatives<WholeNumbers>(shift).of_value(Facet<WholeNumbers>(facet))
+               : Derivatives<Fractions>(shift).of_value(Facet<Fractions>(facet));
+}
+
+std::optional<int> passage_shifted(const LatticePoint& from, const LatticePoint& to, bool is_second,
+                                   const FacetCorners& facet, const InfinitesimalShift& shift) {
+    return are_whole({&facet}) && from.is_whole() && to.is_whole() && is_whole(shift)
+               ? passage<WholeNumbers>(from, to, is_second, facet, shift)
+               : passage<Fractions>(from, to, is_second, facet, shift);
+}
+
+int order_along_shifted(const LatticePoint& from, const LatticePoint& to, bool is_second,
+                        const FacetCorners& one, const FacetCorners& other,
+                        const InfinitesimalShift& shift) {
+    const bool whole =
+        are_whole({&one, &other}) && from.is_whole() && to.is_whole() && is_whole(shift);
+    return whole ? order_along<WholeNumbers>(from, to, is_second, one, other, shift)
+                 : order_along<Fractions>(from, to, is_second, one, other, shift);
 }
 
 }  // namespace trisect::detail

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/infinitesimal_shift.h>
@@ -33,21 +34,30 @@ struct ShiftedPair {
     std::array<FacetCrossing::End, 2> ends;
 };
 
-/// \pre whole coordinates
 [[nodiscard]] ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second,
                                          const InfinitesimalShift& shift);
 
 /// What two facets of one plane have in common, without the shift: nothing, a part of their
-/// outlines, or more. \pre whole coordinates
+/// outlines, or more.
 enum class Overlap : std::uint8_t { None, Outlines, Insides };
 [[nodiscard]] Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second);
 
-/// The signs of a facet's normal. \pre whole coordinates
+/// The signs of a facet's normal.
 [[nodiscard]] std::array<int, 3> normal_signs(const FacetCorners& facet);
+
+/// 1 where a facet of the other mesh in the plane of this one is moved above it, -1 below it.
+[[nodiscard]] int side_of_shifted(const FacetCorners& facet, const InfinitesimalShift& shift);
+
+/// Whether the line from one point to another one goes through a facet of the other mesh: 1
+/// upwards, -1 downwards, 0 not at all. Nothing where an edge of the facet is parallel to it and
+/// would touch it. `is_second`: the points are moved.
+[[nodiscard]] std::optional<int> passage_shifted(const LatticePoint& from, const LatticePoint& to,
+                                                 bool is_second, const FacetCorners& facet,
+                                                 const InfinitesimalShift& shift);
 
 /// -1 where an edge comes first through the one and then through the other of two facets of the
 /// other mesh, 1 the other way; 0 where both are of one plane. `is_second`: the edge is of the mesh
-/// that is moved. \pre whole coordinates; it goes through both
+/// that is moved. \pre it goes through both
 [[nodiscard]] int order_along_shifted(const LatticePoint& from, const LatticePoint& to,
                                       bool is_second, const FacetCorners& one,
                                       const FacetCorners& other, const InfinitesimalShift& shift);

@@ -24,15 +24,17 @@ using trisect::detail::order_along_shifted;
 using trisect::detail::Overlap;
 using trisect::detail::relate_shifted;
 using trisect::detail::ShiftedPair;
+using trisect::detail::side_of_shifted;
 
 using Corner = std::array<std::int64_t, 3>;
 using Triangle = std::array<Corner, 3>;
 
-// Determinants of the small grid are below 2^11; so one of three corners changes less by a shift
-// along one axis than by the smallest one along the axis before it, and by none as much as from one
-// number to the next.
-constexpr std::int64_t scale = std::int64_t{1} << 45;
-constexpr std::array<std::int64_t, 3> steps{std::int64_t{1} << 30, std::int64_t{1} << 15, 1};
+// Determinants of the small grid and the centre of growth are below 2^12; so one of three corners
+// changes less by a shift along one axis than by the smallest one along the axis before it, or by
+// growth, and by none as much as from one number to the next.
+constexpr std::int64_t scale = std::int64_t{1} << 48;
+constexpr std::int64_t growth = std::int64_t{1} << 36;
+constexpr std::array<std::int64_t, 3> steps{std::int64_t{1} << 24, std::int64_t{1} << 12, 1};
 
 FacetCorners corners(const std::array<LatticePoint, 3>& points) {
     return {&points[0], &points[1], &points[2]};
@@ -45,12 +47,32 @@ std::array<LatticePoint, 3> points_of(const Triangle& t) {
 }
 
 Triangle fine(Triangle t, const InfinitesimalShift* shift) {
-    for (Corner& c : t) {
-        for (std::int64_t& x : c) x *= scale;
+    for (Corner& c : t)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::int64_t from_centre =
+                shift == nullptr ? 0 : c[k] - shift->centre[static_cast<int>(k)].to_integer();
+            c[k] = c[k] * scale;
+            if (shift != nullptr) c[k] += shift->growth * growth * from_centre;
+        }
+    for (Corner& c : t)
         for (std::size_t k = 0; shift != nullptr && k < 3; ++k)
             c[shift->axes[k]] += shift->signs[k] * steps[k];
-    }
     return t;
+}
+
+// Along the axes by powers of two that leave no bits unused. What is in special position stays so.
+std::array<LatticePoint, 3> stretched(const std::array<LatticePoint, 3>& points) {
+    std::array<LatticePoint, 3> out;
+    for (std::size_t i = 0; i < 3; ++i)
+        out[i] = {trisect::Coordinate(points[i].x.to_double() * 0x1p-73),
+                  trisect::Coordinate(points[i].y.to_double() * 0x1p49),
+                  trisect::Coordinate(points[i].z.to_double() * 0x1p-20)};
+    return out;
+}
+
+InfinitesimalShift stretched(InfinitesimalShift shift) {
+    shift.centre = stretched({shift.centre, {}, {}})[0];
+    return shift;
 }
 
 bool has_area(const Triangle& t) {
@@ -79,6 +101,9 @@ public:
         InfinitesimalShift s;
         std::shuffle(s.axes.begin(), s.axes.end(), random_);
         for (std::int8_t& sign : s.signs) sign = random_() % 2 == 0 ? 1 : -1;
+        s.growth = static_cast<std::int8_t>(static_cast<int>(random_() % 3) - 1);
+        const Triangle centre = next(4);
+        s.centre = {centre[0][0], centre[0][1], centre[0][2]};
         return s;
     }
 
@@ -101,6 +126,19 @@ TEST(ShiftedPairs, AreRelatedAsThoseThatAreMoved) {
         const ShiftedPair pair = relate_shifted(corners(at_a), corners(at_b), shift);
         ++kinds[static_cast<std::size_t>(pair.kind)];
         touching += pair.touches ? 1 : 0;
+        const auto wide_a = stretched(at_a);
+        const auto wide_b = stretched(at_b);
+        const ShiftedPair wide = relate_shifted(corners(wide_a), corners(wide_b), stretched(shift));
+        EXPECT_EQ(wide.kind, pair.kind);
+        EXPECT_EQ(wide.touches, pair.touches);
+        EXPECT_EQ(wide.is_above, pair.is_above);
+        EXPECT_EQ(wide.same_side, pair.same_side);
+        if (pair.kind == ShiftedPair::Kind::Coplanar) {
+            EXPECT_EQ(side_of_shifted(corners(at_a), shift), pair.is_above ? 1 : -1);
+            EXPECT_EQ(side_of_shifted(corners(wide_a), stretched(shift)), pair.is_above ? 1 : -1);
+            EXPECT_EQ(coplanar_overlap(corners(wide_a), corners(wide_b)),
+                      coplanar_overlap(corners(at_a), corners(at_b)));
+        }
         const auto fine_a = points_of(fine(a, nullptr));
         const auto fine_b = points_of(fine(b, &shift));
         const ShiftedPair moved = relate_shifted(corners(fine_a), corners(fine_b), shift);
@@ -110,9 +148,12 @@ TEST(ShiftedPairs, AreRelatedAsThoseThatAreMoved) {
         for (std::size_t k = 0; crosses && k < 2; ++k) {
             EXPECT_EQ(pair.ends[k].of_second, moved.ends[k].of_second);
             EXPECT_EQ(pair.ends[k].edge, moved.ends[k].edge);
+            EXPECT_EQ(pair.ends[k].of_second, wide.ends[k].of_second);
+            EXPECT_EQ(pair.ends[k].edge, wide.ends[k].edge);
+            EXPECT_EQ(pair.ends[k].corner, wide.ends[k].corner);
             for (std::size_t i = 0; i < 3; ++i)
                 EXPECT_NEAR(pair.ends[k].at.c[i] * static_cast<double>(scale),
-                            moved.ends[k].at.c[i], 0x1p42);
+                            moved.ends[k].at.c[i], 0x1p45);
             if (pair.ends[k].corner < 0) continue;
             const auto& own = pair.ends[k].of_second ? at_b : at_a;
             const LatticePoint& corner = own[static_cast<std::size_t>(pair.ends[k].corner)];
@@ -151,6 +192,10 @@ TEST(ShiftedPairs, EdgesGoThroughFacetsInTheOrderOfThoseThatAreMoved) {
         ++compared;
         const int order = order_along_shifted(own[0], own[1], is_second, corners(cutters[0]),
                                               corners(cutters[1]), shift);
+        const std::array wide_cutters{stretched(cutters[0]), stretched(cutters[1])};
+        const auto wide = stretched(own);
+        EXPECT_EQ(order, order_along_shifted(wide[0], wide[1], is_second, corners(wide_cutters[0]),
+                                             corners(wide_cutters[1]), stretched(shift)));
         const auto fine_own = points_of(fine(f, is_second ? &shift : nullptr));
         const std::array fine_cutters{points_of(fine(others[0], is_second ? nullptr : &shift)),
                                       points_of(fine(others[1], is_second ? nullptr : &shift))};

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Vertices near an edge, found in a tree of boxes (vertex_boxes.h).
+
+#include <trisect/bsp/assembly/parts/vertex_boxes.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using trisect::detail::VertexBoxes;
+using Point = std::array<double, 3>;
+
+// Points of a small grid, so that many lie on the edge.
+TEST(VertexBoxes, FindAllVerticesOnAnEdgeAndFewOthers) {
+    std::mt19937 random(3);
+    const auto at = [&] { return static_cast<double>(random() % 9); };
+    std::size_t seen = 0;
+    std::size_t tried = 0;
+    for (int round = 0; round < 200; ++round) {
+        std::vector<VertexBoxes::Vertex> vertices;
+        for (int i = 0; i < 700; ++i) vertices.push_back({{at(), at(), at()}, i});
+        VertexBoxes boxes;
+        boxes.build(vertices);
+        const Point from{at(), at(), at()};
+        const Point to{at(), at(), at()};
+        std::vector<bool> found(vertices.size());
+        boxes.for_each_near(from, to, 1e-9, [&](std::span<const VertexBoxes::Vertex> part) {
+            for (const auto& v : part) found[static_cast<std::size_t>(v.point)] = true;
+            seen += part.size();
+        });
+        tried += vertices.size();
+        for (const auto& v : vertices) {
+            double cross = 0;
+            double along = 0;
+            double length = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t i = (k + 1) % 3;
+                const std::size_t j = (k + 2) % 3;
+                cross += std::fabs((v.c[i] - from[i]) * (to[j] - from[j]) -
+                                   (v.c[j] - from[j]) * (to[i] - from[i]));
+                along += (v.c[k] - from[k]) * (to[k] - from[k]);
+                length += (to[k] - from[k]) * (to[k] - from[k]);
+            }
+            const bool is_point = length == 0;
+            const bool on = is_point ? v.c == from : cross == 0 && along >= 0 && along <= length;
+            if (on) {
+                EXPECT_TRUE(found[static_cast<std::size_t>(v.point)]);
+            }
+        }
+    }
+    EXPECT_LT(seen, tried / 5);
+}
+
+}  // namespace
