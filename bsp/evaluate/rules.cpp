@@ -157,17 +157,6 @@ bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solid
     return are_two_meshes(formula, solids, options);
 }
 
-// Prisms are arranged by themselves, and most of them are in special position.
-bool are_many_in_one_place(const Residual::Ref& formula, const SolidStates& solids,
-                           const EvaluateSettings& options) {
-    return are_many_meshes(formula, solids, options) &&
-           !std::ranges::all_of(solids, [](const auto& s) {
-               const PolygonList& polygons = s->root().node->polygons();
-               return PrismFacets::may_be_of_prism(polygons[0]) &&
-                      PrismFacets::may_be_of_prism(polygons[polygons.size() - 1]);
-           });
-}
-
 // --- The table.
 
 template <auto Arranger>
@@ -201,9 +190,9 @@ constexpr std::array all_rules{
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
     Rule{"many meshes",
          "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, without an index; "
-         "not prisms along one axis; no limits",
+         "no limits",
          "uncrossed facets, outlines", &Stats::filtered_leaves,
-         FormulaRule{&are_many_in_one_place, &evaluate_many_without_tree}},
+         FormulaRule{&are_many_meshes, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",
          &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
     Rule{"share", "one operand is left, and it is embedded",

@@ -41,7 +41,9 @@ bool is_open_far_out(const SolidState& solid, const Crossings::Operand& operand)
            operand.open;
 }
 
-// The part of their common box that the boxes of the operands take on average.
+// In how many boxes of operands a point of their common box lies, on average: so many, or this part
+// of all where they are few.
+constexpr double crowded_depth = 2.5;
 constexpr double crowded_part = 0.3;
 
 bool are_crowded(const SolidStates& solids) {
@@ -56,7 +58,7 @@ bool are_crowded(const SolidStates& solids) {
                     static_cast<double>(all.hi[k] - all.lo[k] + 1);
         sum += part;
     }
-    return sum >= crowded_part * static_cast<double>(solids.size());
+    return sum >= std::min(crowded_depth, crowded_part * static_cast<double>(solids.size()));
 }
 
 class BalancedTree {
