@@ -39,6 +39,7 @@ struct Request {
     LocateOptions locate;
     SweepOptions sweep;
     SectionOptions section;
+    ViewOptions view;
     RenderOptions render;
     TreeOptions tree;
     InterfereOptions interfere;
@@ -177,6 +178,7 @@ void declare(CLI::App& app, Request& request) {
     add_locate_command(app, request.locate);
     add_sweep_command(app, request.sweep);
     add_section_command(app, request.section);
+    add_view_command(app, request.view);
     add_render_command(app, request.render);
     add_tree_command(app, request.tree);
     add_interfere_command(app, request.interfere);
@@ -201,6 +203,7 @@ Outcome run_command(Session& session, const std::string& name, const Request& re
     if (name == "locate") return run_locate(session, request.locate);
     if (name == "sweep") return run_sweep(session, request.sweep);
     if (name == "section") return run_section(session, request.section);
+    if (name == "view") return run_view(session, request.view);
     if (name == "render") return run_render(session, request.render);
     if (name == "tree") return run_tree(session, request.tree);
     if (name == "interfere") return run_interfere(session, request.interfere);

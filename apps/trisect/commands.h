@@ -53,6 +53,9 @@ void add_section_command(CLI::App& app, SectionOptions& options);
 void add_render_command(CLI::App& app, RenderOptions& options);
 [[nodiscard]] Outcome run_render(Session& session, const RenderOptions& options);
 
+void add_view_command(CLI::App& app, ViewOptions& options);
+[[nodiscard]] Outcome run_view(Session& session, const ViewOptions& options);
+
 void add_tree_command(CLI::App& app, TreeOptions& options);
 [[nodiscard]] Outcome run_tree(Session& session, const TreeOptions& options);
 

@@ -1,87 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The numbers are arrays one after the other, deflated together and written in base64. Indices and
-// coordinates are differences to the one before, as bytes of seven bits: neighbours in a mesh are
-// neighbours in its lists, so most take one byte or two.
+// Indices and coordinates are differences to the one before: neighbours in a mesh are neighbours in
+// its lists.
 #include "mill_page.h"
-
-#include <trisect/kernel/error.h>
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
-#include <string_view>
+
+#include "page_data.h"
 
 namespace trisect::app {
 namespace {
-
-/// Bytes of several arrays, with their places for the reader.
-class PageData {
-public:
-    void add(const char* name, std::string_view bytes) {
-        while (bytes_.size() % 4 != 0) bytes_.push_back('\0');
-        places_[name] = {bytes_.size(), bytes.size()};
-        bytes_ += bytes;
-    }
-    void add_floats(const char* name, const std::vector<float>& values) {
-        static_assert(std::endian::native == std::endian::little);
-        std::string bytes(values.size() * sizeof(float), '\0');
-        if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-        add(name, bytes);
-    }
-    [[nodiscard]] const Json& places() const { return places_; }
-    [[nodiscard]] std::string deflated() const {
-        uLongf size = compressBound(static_cast<uLong>(bytes_.size()));
-        std::string out(size, '\0');
-        const int result = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                                     reinterpret_cast<const Bytef*>(bytes_.data()),
-                                     static_cast<uLong>(bytes_.size()), Z_DEFAULT_COMPRESSION);
-        if (result != Z_OK) throw LimitError("no memory for the data of the page");
-        out.resize(size);
-        return out;
-    }
-
-private:
-    std::string bytes_;
-    Json places_ = Json::object();
-};
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            word =
-                word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
-        for (std::size_t k = 0; k < 4; ++k)
-            out += i + k > bytes.size() ? '=' : digits[(word >> (18 - 6 * k)) & 63];
-    }
-    return out;
-}
-
-/// Differences of integers, the sign in the last bit, seven bits a byte, the lowest first.
-class Differences {
-public:
-    void add(std::int64_t value) {
-        const std::int64_t d = value - last_;
-        last_ = value;
-        auto n = static_cast<std::uint64_t>(d < 0 ? -2 * d - 1 : 2 * d);
-        for (; n >= 128; n >>= 7) bytes_ += static_cast<char>((n & 127) | 128);
-        bytes_ += static_cast<char>(n);
-    }
-    [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
-private:
-    std::string bytes_;
-    std::int64_t last_ = 0;
-};
 
 Bounds box_of(const std::vector<Point3d>& points) {
     if (points.empty()) return {};
@@ -171,14 +101,6 @@ void add_steps(PageData& data, const MillJob& job, const MillRun& run) {
     data.add_floats("steps", values);
 }
 
-/// JSON within a script: no text of it may end the element.
-std::string script_text(const Json& json) {
-    std::string out = json.dump(-1, ' ', true, Json::error_handler_t::replace);
-    for (std::size_t at = out.find("</"); at != std::string::npos; at = out.find("</", at + 3))
-        out.insert(at + 1, "\\");
-    return out;
-}
-
 }  // namespace
 
 std::string page_text(const MillJob& job, const MillRun& run, const MillFilm& film) {
@@ -193,8 +115,8 @@ std::string page_text(const MillJob& job, const MillRun& run, const MillFilm& fi
     facts["collisions"] = run.collisions();
     facts["stock_volume"] = job.stock_volume;
     facts["places"] = data.places();
-    return mill_page_before_facts + script_text(facts) + mill_page_before_data +
-           base64(data.deflated()) + mill_page_end;
+    return mill_page_before_facts + script_text(facts) + mill_page_before_data + data.in_base64() +
+           mill_page_end;
 }
 
 }  // namespace trisect::app

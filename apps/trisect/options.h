@@ -121,6 +121,12 @@ struct SectionOptions {
     std::string output;  ///< empty: none
 };
 
+struct ViewOptions {
+    QueryOptions set;
+    std::string output;
+    bool no_inputs = false;
+};
+
 struct TreeOptions {
     QueryOptions set;
     PlaneRequest plane = PlaneRequest::from_text("z", "--plane");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Growth of a mesh that uncovers, or covers, all that it shares with another one.
+// A centre about which one of two meshes grows.
 #pragma once
 
 #include <compare>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PointSide: the side of a mesh on which a point of another one is, one of the two being shifted.
+// PointSide: the side of a shifted mesh that a point is on.
 #pragma once
 
 #include <optional>
