@@ -110,8 +110,12 @@ std::size_t Crossings::operand_of(std::uint32_t number) const {
     return static_cast<std::size_t>(next - operands.begin()) - 1;
 }
 
-void Crossings::append(const Crossings& part) {
-    pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
+void Crossings::append(Crossings&& part) {
+    if (pairs.empty()) {
+        pairs = std::move(part.pairs);
+    } else {
+        pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
+    }
     uncertain.insert(uncertain.end(), part.uncertain.begin(), part.uncertain.end());
     containments.insert(containments.end(), part.containments.begin(), part.containments.end());
     special.insert(special.end(), part.special.begin(), part.special.end());

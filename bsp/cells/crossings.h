@@ -84,7 +84,7 @@ struct Crossings {
     [[nodiscard]] std::size_t operand_of(std::uint32_t number) const;
 
     /// What another thread has found of the same operands; arrange() is due afterwards.
-    void append(const Crossings& part);
+    void append(Crossings&& part);
     /// Sorts, and leaves one of each pair: it was found in every cell that its segment runs
     /// through.
     void arrange();

@@ -98,6 +98,7 @@ public:
         return with_enough_stack([&] { return solve(task); });
     }
     [[nodiscard]] const LeafFindings& findings() const { return findings_; }
+    [[nodiscard]] Crossings take_crossings() { return *std::move(findings_.crossings); }
     [[nodiscard]] const ContainedCells& covered() const { return covered_; }
     [[nodiscard]] StackArena& arena() { return arena_; }
     /// Last, and only when nothing was thrown.
@@ -669,9 +670,9 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
     if (crossings) {
         ContainedCells covered;
         std::vector<std::uint32_t> seen;
-        shared.workers.for_each([&](const Worker& worker) {
+        shared.workers.for_each([&](Worker& worker) {
             const LeafFindings& found = worker.findings();
-            crossings->append(*found.crossings);
+            crossings->append(worker.take_crossings());
             covered.append(worker.covered());
             seen.insert(seen.end(), found.seen.begin(), found.seen.end());
         });

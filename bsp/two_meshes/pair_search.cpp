@@ -83,7 +83,7 @@ public:
             operands, [](const CellOperand& o) { return has_long_facets_of(o); });
         solve(task);
     }
-    [[nodiscard]] const Crossings& crossings() const { return crossings_; }
+    [[nodiscard]] Crossings take_crossings() { return std::move(crossings_); }
     [[nodiscard]] const EvaluateStats& stats() const { return stats_; }
     [[nodiscard]] const PairSearch::Outcome& directions() const { return directions_; }
 
@@ -547,8 +547,8 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
     }
     out.has_equal = search.has_equal.load();
     out.is_certain = !search.is_uncertain.load();
-    search.finders.for_each([&](const PairFinder& f) {
-        if (!out.has_equal) crossings.append(f.crossings());
+    search.finders.for_each([&](PairFinder& f) {
+        if (!out.has_equal) crossings.append(f.take_crossings());
         stats += f.stats();
         const Outcome& found = f.directions();
         out.wanted.insert(out.wanted.end(), found.wanted.begin(), found.wanted.end());
