@@ -13,6 +13,7 @@
 #include <trisect/kernel/error.h>
 
 #include "disjoint_sets.h"
+#include "dissolve.h"
 #include "node.h"
 
 namespace manifold {
@@ -178,7 +179,7 @@ TriMesh with_names(const NamedSolid& solid, const trisect::Brep& brep, trisect::
 }  // namespace
 
 TriMesh triangles_of(const NamedSolid& solid) {
-    const trisect::Brep brep = solid.solid.to_brep({.maximal_faces = false});
+    const trisect::Brep brep = dissolved(solid.solid.to_brep({.maximal_faces = false}));
     trisect::MeshMap map;
     return with_names(solid, brep, map);
 }
@@ -225,7 +226,7 @@ ManifoldNode::Ptr renamed(const ManifoldNode& node) {
     if (node.is_mesh()) return ManifoldNode::of_mesh(node.mesh(), node.original(), node.tolerance());
     trisect::MeshMap map;
     try {
-        const trisect::Brep brep = solid.solid.to_brep({.maximal_faces = false});
+        const trisect::Brep brep = dissolved(solid.solid.to_brep({.maximal_faces = false}));
         TriMesh mesh = with_names(solid, brep, map);
         std::vector<std::uint32_t> group;
         for (const trisect::FaceId f : map.face) group.push_back(f.index);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -35,7 +36,7 @@ Error find_error(const MeshGLP<Number, Index>& m) {
         return Error::MergeIndexOutOfBounds;
     if (std::ranges::any_of(m.triVerts, outside)) return Error::VertexOutOfBounds;
     const std::size_t runs = m.runOriginalID.size();
-    if (!m.runTransform.empty() && m.runTransform.size() != 12 * runs)
+    if (runs != 0 && !m.runTransform.empty() && m.runTransform.size() != 12 * runs)
         return Error::TransformWrongLength;
     if (!m.runIndex.empty() && m.runIndex.size() != runs && m.runIndex.size() != runs + 1)
         return Error::RunIndexWrongLength;
@@ -72,6 +73,69 @@ std::vector<Run> runs_of(const MeshGLP<Number, Index>& m) {
     return runs;
 }
 
+// Vertices that are the same in all but their numbers have one row of properties.
+template <class Number, class Index>
+std::vector<std::uint32_t> rows_of(const MeshGLP<Number, Index>& m, DisjointSets& sets) {
+    const auto width = static_cast<std::size_t>(m.numProp);
+    std::map<std::uint32_t, std::vector<std::uint32_t>> merged;  // by point
+    std::vector<std::uint32_t> row(m.vertProperties.size() / width);
+    for (std::uint32_t v = 0; v < row.size(); ++v) row[v] = v;
+    if (m.mergeFromVert.empty()) return row;
+    for (std::uint32_t v = 0; v < row.size(); ++v) {
+        std::vector<std::uint32_t>& there = merged[sets.root(v)];
+        const auto begin = [&](std::uint32_t u) { return m.vertProperties.begin() + u * width + 3; };
+        const auto same = std::ranges::find_if(there, [&](std::uint32_t u) {
+            return std::equal(begin(v), begin(v) + width - 3, begin(u));
+        });
+        if (same != there.end())
+            row[v] = *same;
+        else
+            there.push_back(v);
+    }
+    return row;
+}
+
+// Gives each fan of triangles around a point a point of its own. Sides of more than two triangles
+// hold fans together.
+void split_fans(TriMesh& mesh) {
+    DisjointSets fans(3 * mesh.corners.size());
+    std::vector<std::array<std::uint32_t, 3>> sides;  // the points, low first, and the corner
+    for (std::uint32_t c = 0; c < 3 * mesh.corners.size(); ++c) {
+        const std::uint32_t a = mesh.corners[c / 3][c % 3];
+        const std::uint32_t b = mesh.corners[c / 3][(c + 1) % 3];
+        sides.push_back({std::min(a, b), std::max(a, b), c});
+    }
+    std::ranges::sort(sides);
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+        if (sides[i][0] != sides[i - 1][0] || sides[i][1] != sides[i - 1][1]) continue;
+        const auto ends = [&](std::uint32_t c) {
+            const std::uint32_t far = c / 3 * 3 + (c + 1) % 3;
+            return mesh.corners[c / 3][c % 3] == sides[i][0] ? std::pair(c, far)
+                                                             : std::pair(far, c);
+        };
+        const auto [low, high] = ends(sides[i][2]);
+        const auto [other_low, other_high] = ends(sides[i - 1][2]);
+        fans.join(low, other_low);
+        fans.join(high, other_high);
+    }
+    std::vector<std::uint32_t> fan(mesh.points.size(), no_side);
+    std::map<std::uint32_t, std::uint32_t> point;  // of further fans
+    for (std::uint32_t c = 0; c < 3 * mesh.corners.size(); ++c) {
+        std::uint32_t& p = mesh.corners[c / 3][c % 3];
+        const std::uint32_t root = fans.root(c);
+        if (fan[p] == no_side) fan[p] = root;
+        if (fan[p] == root) continue;
+        const auto [at, is_new] =
+            point.try_emplace(root, static_cast<std::uint32_t>(mesh.points.size()));
+        if (is_new) {
+            const vec3 copy = mesh.points[p];
+            mesh.points.push_back(copy);
+            fan.push_back(root);
+        }
+        p = at->second;
+    }
+}
+
 // The triangles that have three vertices. Rows of properties are the mesh's vertices.
 template <class Number, class Index>
 TriMesh from_mesh(const MeshGLP<Number, Index>& m) {
@@ -84,6 +148,7 @@ TriMesh from_mesh(const MeshGLP<Number, Index>& m) {
     TriMesh out;
     out.width = width - 3;
     out.runs = runs_of(m);
+    const std::vector<std::uint32_t> row = rows_of(m, sets);
     std::vector<std::uint32_t> point(vertices, no_side);
     std::uint32_t run = 0;
     for (std::size_t t = 0; 3 * t < m.triVerts.size(); ++t) {
@@ -93,15 +158,16 @@ TriMesh from_mesh(const MeshGLP<Number, Index>& m) {
         Triple corners{};
         Triple rows{};
         for (std::size_t k = 0; k < 3; ++k) {
-            rows[k] = static_cast<std::uint32_t>(m.triVerts[3 * t + k]);
-            corners[k] = sets.root(rows[k]);
+            const auto v = static_cast<std::uint32_t>(m.triVerts[3 * t + k]);
+            rows[k] = row[v];
+            corners[k] = sets.root(v);
         }
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
             continue;
         out.corners.push_back(corners);
         if (out.width != 0) out.rows.push_back(rows);
         out.run.push_back(run);
-        if (!m.faceID.empty()) out.face.push_back(m.faceID[t]);
+        out.face.push_back(m.faceID.empty() ? t : m.faceID[t]);
     }
     // Points in the order of their vertices; of all that are used.
     for (const Triple& t : out.corners)
@@ -121,6 +187,13 @@ TriMesh from_mesh(const MeshGLP<Number, Index>& m) {
     return out;
 }
 
+// Faces have the smallest triangle of the given mesh that is part of them.
+void name_flat_faces(TriMesh& mesh) {
+    const std::vector<std::uint64_t> given = mesh.face;
+    mesh.face = flat_faces(mesh);
+    for (std::uint64_t& f : mesh.face) f = given[f];
+}
+
 template <class Number, class Index>
 ManifoldNode::Ptr node_of(const MeshGLP<Number, Index>& m) {
     if (m.triVerts.empty() && m.vertProperties.empty()) return ManifoldNode::of_mesh({});
@@ -128,9 +201,13 @@ ManifoldNode::Ptr node_of(const MeshGLP<Number, Index>& m) {
         return ManifoldNode::of_error(error);
     TriMesh mesh = from_mesh(m);
     if (!is_closed(mesh.corners)) return ManifoldNode::of_error(Error::NotManifold);
-    if (mesh.face.empty()) mesh.face = flat_faces(mesh);
+    if (m.faceID.empty()) name_flat_faces(mesh);
+    split_fans(mesh);
     const int original = mesh.runs.size() == 1 ? mesh.runs[0].original : -1;
-    return ManifoldNode::of_mesh(std::move(mesh), original, static_cast<double>(m.tolerance));
+    auto tolerance = static_cast<double>(m.tolerance);
+    if constexpr (sizeof(Number) < sizeof(double))
+        tolerance = std::max(tolerance, std::numeric_limits<Number>::epsilon() * box_of(mesh).Scale());
+    return ManifoldNode::of_mesh(std::move(mesh), original, tolerance);
 }
 
 // Vertices of a mesh: a point and a row of properties.

@@ -53,7 +53,7 @@ Manifold Manifold::Cube(vec3 size, bool center) {
         mesh.points.push_back(low + size * vec3(corner & 1, corner >> 1 & 1, corner >> 2));
     // Two of each face, along one of its diagonals.
     mesh.corners = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 7, 5}, {1, 3, 7}};
     return new_original(std::move(mesh));
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <manifold/manifold.h>
+#include <trisect/bsp/expression.h>
 
 #include "disjoint_sets.h"
 #include "node.h"
@@ -250,8 +251,10 @@ Manifold Manifold::Refine(int pieces) const {
 Manifold Manifold::Simplify(double tolerance) const {
     if (Status() != Error::NoError || IsEmpty()) return *this;
     if (tolerance > GetTolerance()) throw NotSupported("Simplify with a tolerance");
-    // The assembly joins what is left of one group.
-    TriMesh mesh = triangles_of(node_->solid());
+    // The assembly joins what is left of one group, and what meets itself is resolved.
+    NamedSolid solid = node_->solid();
+    solid.solid = trisect::evaluate(trisect::Expression::any_of({solid.solid}));
+    TriMesh mesh = triangles_of(solid);
     return Manifold(ManifoldNode::of_mesh(std::move(mesh), node_->original(), node_->tolerance()));
 }
 
