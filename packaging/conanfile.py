@@ -40,7 +40,7 @@ class TrisectConan(ConanFile):
         dependencies = CMakeDeps(self)
         dependencies.generate()
         toolchain = CMakeToolchain(self)
-        for name in ("APPS", "TESTS", "EXAMPLES", "C", "PYTHON", "BENCH"):
+        for name in ("APPS", "TESTS", "EXAMPLES", "C", "PYTHON", "MANIFOLD", "BENCH"):
             toolchain.cache_variables[f"TRISECT_BUILD_{name}"] = False
         toolchain.cache_variables["TRISECT_INSTALL"] = True
         toolchain.cache_variables["TRISECT_WITH_TBB"] = bool(self.options.with_tbb)

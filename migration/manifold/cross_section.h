@@ -39,6 +39,8 @@ public:
     [[nodiscard]] CrossSection Scale(vec2 by) const;
     [[nodiscard]] CrossSection Mirror(vec2 axis) const;
     [[nodiscard]] CrossSection Transform(const mat2x3& m) const;
+    /// Without corners that are nearer than `tolerance` to the line between their neighbours.
+    [[nodiscard]] CrossSection Simplify(double tolerance = 0) const;
     [[nodiscard]] CrossSection Warp(const std::function<void(vec2&)>& warp) const;
 
     [[nodiscard]] CrossSection Boolean(const CrossSection& second, OpType op) const {

@@ -332,6 +332,13 @@ vec<T, 4> rotation_quat(const vec<T, 3>& axis, detail::Scalar<T> angle) {
     return {axis * std::sin(angle / 2), std::cos(angle / 2)};
 }
 
+/// The one of the shortest turn that takes a direction to another one, which is not opposite.
+template <class T>
+vec<T, 4> rotation_quat(const vec<T, 3>& from, const vec<T, 3>& to) {
+    const vec<T, 3> a = normalize(from);
+    const vec<T, 3> b = normalize(to);
+    return normalize(vec<T, 4>(cross(a, b), 1 + dot(a, b)));
+}
 /// Turned counter-clockwise about the origin, or about an axis, by an angle in radians.
 template <class T>
 vec<T, 2> rot(detail::Scalar<T> angle, const vec<T, 2>& v) {

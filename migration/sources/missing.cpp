@@ -22,12 +22,6 @@ Manifold Manifold::LevelSet(const std::function<double(vec3)>& /*sdf*/, Box /*bo
                             bool /*canParallel*/) {
     throw NotSupported("LevelSet");
 }
-Manifold Manifold::MinkowskiSum(const Manifold& o) const {
-    return Status() != Error::NoError ? *this : refuse(o, "MinkowskiSum");
-}
-Manifold Manifold::MinkowskiDifference(const Manifold& o) const {
-    return Status() != Error::NoError ? *this : refuse(o, "MinkowskiDifference");
-}
 Manifold Manifold::CalculateCurvature(int /*gaussianIdx*/, int /*meanIdx*/) const {
     return refuse(*this, "CalculateCurvature");
 }
@@ -48,15 +42,6 @@ Manifold Manifold::Smooth(const MeshGL& mesh, const std::vector<Smoothness>& /*s
 }
 Manifold Manifold::Smooth(const MeshGL64& mesh, const std::vector<Smoothness>& /*sharpened*/) {
     return refuse(Manifold(mesh), "Smooth");
-}
-double Manifold::MinGap(const Manifold& /*other*/, double /*searchLength*/) const {
-    throw NotSupported("MinGap");
-}
-std::vector<RayHit> Manifold::RayCast(vec3 /*origin*/, vec3 /*endpoint*/) const {
-    throw NotSupported("RayCast");
-}
-std::vector<int> Manifold::WindingNumber(const std::vector<vec3>& /*points*/) const {
-    throw NotSupported("WindingNumber");
 }
 
 }  // namespace manifold

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <manifold/cross_section.h>
 #include <manifold/manifold.h>
@@ -102,6 +103,26 @@ CrossSection CrossSection::Warp(const std::function<void(vec2&)>& warp) const {
     for (SimplePolygon& polygon : moved)
         for (vec2& p : polygon) warp(p);
     return moved;
+}
+
+CrossSection CrossSection::Simplify(double tolerance) const {
+    CrossSection result;
+    for (const SimplePolygon& polygon : polygons_) {
+        SimplePolygon kept = polygon;
+        for (std::size_t i = 0; i < kept.size() && kept.size() > 2;) {
+            const vec2 before = kept[(i + kept.size() - 1) % kept.size()];
+            const vec2 along = kept[(i + 1) % kept.size()] - before;
+            const double length = la::length(along);
+            const double apart = length > 0 ? std::abs(la::cross(along, kept[i] - before)) / length
+                                            : la::length(kept[i] - before);
+            if (apart < tolerance)
+                kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+            else
+                ++i;
+        }
+        if (kept.size() > 2) result.polygons_.push_back(std::move(kept));
+    }
+    return result;
 }
 
 CrossSection CrossSection::BatchBoolean(const std::vector<CrossSection>& sections, OpType op) {

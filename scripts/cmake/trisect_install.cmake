@@ -38,6 +38,18 @@ if(TARGET trisect_c)
         FILES ${PROJECT_BINARY_DIR}/trisect-c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
     )
 endif()
+# The library Manifold's interface, whose headers have that library's names: a folder of their own.
+if(TARGET trisect_manifold)
+    install(
+        TARGETS trisect_manifold
+        EXPORT trisect_targets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    )
+    install(
+        DIRECTORY ${PROJECT_SOURCE_DIR}/migration/manifold
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trisect-manifold
+    )
+endif()
 set(TRISECT_PC_REQUIRES "")
 if(TRISECT_WITH_TBB)
     set(TRISECT_PC_REQUIRES tbb)
