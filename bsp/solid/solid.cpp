@@ -19,6 +19,7 @@
 #include <trisect/bsp/divide/refine_leaf.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/solid/inside_out.h>
+#include <trisect/bsp/solid/uncut_root.h>
 #include <trisect/kernel/plane_on_lattice.h>
 
 namespace trisect {
@@ -107,7 +108,8 @@ std::optional<Brep> brep_with_proved_names(const SolidState& s, const AssembleOp
     return brep;
 }
 
-Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads) {
+Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads,
+                      bool t_edges = false) {
     if (mesh.triangles.empty()) return {};
     const bool embedded =
         embedding == Embedding::Assume || (embedding == Embedding::Check && is_embedded(mesh));
@@ -115,7 +117,7 @@ Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threa
     const auto source = detail::Source::make(std::move(mesh), threads);
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
-    state->form = tree_of(CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false));
+    state->form = tree_of(detail::uncut_root(*source, t_edges));
     state->embedded = embedded;
     state->whole = source->is_whole();
     state->source = source->serial();
@@ -127,17 +129,8 @@ Solid of_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out
     if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
     if (imported.report.inside_out) detail::require_accepted(embedding, inside_out);
     if (imported.mesh.triangles.empty()) return {};
-    const bool t_edges = imported.report.t_edges != 0;
-    Solid s = of_lattice_mesh(std::move(imported.mesh), embedding, threads);
-    if (!t_edges) return s;
-    // Corners inside edges: every facet may have vertices in its edges.
-    auto state = std::make_shared<SolidState>(*detail::state_of(s));
-    const CellNode& n = *detail::state_of(s)->root().node;
-    std::vector<detail::PolygonRef> refs(n.polygons().begin(), n.polygons().end());
-    for (detail::PolygonRef& r : refs) r.touched = true;
-    state->form =
-        tree_of(CellNode::leaf(PolygonList(std::move(refs)), n.reference(), n.winding(), true));
-    return detail::solid_of(std::move(state));
+    return of_lattice_mesh(std::move(imported.mesh), embedding, threads,
+                           imported.report.t_edges != 0);
 }
 
 // One on which the plane is some 2^24 units from the origin, so that points near its foot have

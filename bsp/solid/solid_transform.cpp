@@ -23,6 +23,7 @@
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/solid/moved_tree.h>
+#include <trisect/bsp/solid/uncut_root.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/gmp.h>
 
@@ -276,18 +277,15 @@ std::pair<std::vector<FaceSource>, std::vector<std::uint32_t>> numbered(
     return out;
 }
 
-StatePtr state_of(LatticeMesh mesh, std::uint32_t operand, std::vector<FaceSource> names,
-                  bool is_complement) {
+StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
+                  std::vector<FaceSource> names, bool is_complement) {
     auto state = std::make_shared<SolidState>();
     state->lattice = mesh.lattice;
     state->embedded = is_embedded(mesh);
     const auto source =
         detail::Source::named(detail::Source::make(std::move(mesh)), std::move(names));
-    state->form = detail::CellTree{
-        {detail::CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false),
-         is_complement},
-        {},
-        nullptr};
+    state->form =
+        detail::CellTree{{detail::uncut_root(*source, t_edges), is_complement}, {}, nullptr};
     state->whole = source->is_whole();
     state->source = operand != 0 ? operand : source->serial();
     state->far_out = is_complement ? 1 : 0;
@@ -317,7 +315,9 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
     for (std::uint32_t t = 0; t < imported.mesh.triangles.size(); ++t)
         faces.push_back(number[imported.mesh.face_of(t)]);
     imported.mesh.face_of_triangle = std::move(faces);
-    return state_of(std::move(imported.mesh), solid.source_id(), std::move(names), is_complement);
+    // Triangles that rounding made flat are gone, and their corners lie inside edges of others.
+    return state_of(std::move(imported.mesh), imported.report.t_edges != 0, solid.source_id(),
+                    std::move(names), is_complement);
 }
 
 }  // namespace

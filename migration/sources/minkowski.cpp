@@ -57,7 +57,11 @@ std::vector<Solid> swept_boundary(const ManifoldNode& a, const TriMesh& b, bool 
     return parts;
 }
 
-Solid solid_of(const Manifold& m) { return m.node()->solid().solid; }
+// Moved by the same additions of rounded corners as in the sums, so that both fit together.
+Solid moved_by(const Manifold& m, const vec3& by) {
+    const Manifold rounded(ManifoldNode::of_mesh(m.node()->mesh()));
+    return rounded.Translate(by).node()->solid().solid;
+}
 
 Manifold made(const Expression& formula) {
     const Solid solid = trisect::evaluate(formula);
@@ -91,8 +95,8 @@ Manifold Manifold::MinkowskiSum(const Manifold& o) const {
     const Manifold& b = swapped ? *this : o;
     std::vector<Solid> parts =
         swept_boundary(*a.node_, b.node_->mesh(), swapped ? convex : other_convex);
-    parts.push_back(solid_of(a.Translate(b.node_->mesh().points.front())));
-    parts.push_back(solid_of(b.Translate(a.node_->mesh().points.front())));
+    parts.push_back(moved_by(a, b.node_->mesh().points.front()));
+    parts.push_back(moved_by(b, a.node_->mesh().points.front()));
     return made(Expression::any_of(parts));
 }
 
@@ -104,7 +108,7 @@ Manifold Manifold::MinkowskiDifference(const Manifold& o) const {
     const Manifold reflected = o.Scale(vec3(-1.0));
     const std::vector<Solid> parts =
         swept_boundary(*node_, reflected.node_->mesh(), is_convex(*o.node_));
-    return made(solid_of(Translate(reflected.node_->mesh().points.front())) -
+    return made(moved_by(*this, reflected.node_->mesh().points.front()) -
                 Expression::any_of(parts));
 }
 

@@ -244,6 +244,37 @@ TEST(Components, OfRoundBodiesOffTheLattice) {
               trisect::exact_volume(cut));
 }
 
+// A box whose bottom has a corner so near to one of its edges that rounding puts it there: the
+// triangle between them is gone, and its corner lies inside the edge of the side.
+trisect::PolygonMesh box_with_needle() {
+    trisect::PolygonMesh mesh;
+    const double near = std::ldexp(1, -60);
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+                   {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, near, 0}};
+    mesh.add_triangle(0, 8, 1);
+    mesh.add_triangle(0, 3, 8);
+    mesh.add_triangle(3, 2, 8);
+    mesh.add_triangle(2, 1, 8);
+    const std::vector<std::array<std::uint32_t, 4>> sides{
+        {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
+    for (const auto& side : sides) mesh.add_face(side);
+    return mesh;
+}
+
+TEST(SolidTransform, TrianglesThatRoundingMakesFlat) {
+    const Solid s = Solid::from_mesh(box_with_needle());
+    LatticeReport report;
+    const Solid there =
+        trisect::transformed(s, trisect::AffineMap::translation({8, 8, 8}), &report);
+    EXPECT_EQ(report.moved, 1U);
+    const trisect::BrepCounts counts = there.to_brep().counts();
+    EXPECT_EQ(counts.vertices, 8U);
+    EXPECT_EQ(counts.faces, 6U);
+    EXPECT_EQ(there.to_brep({.maximal_faces = false}).counts().shells, 1U);
+    EXPECT_TRUE(are_equal(there, box({8, 8, 8}, {9, 9, 9})));
+    EXPECT_EQ(trisect::volume(evaluate(there | box({9, 8, 8}, {10, 9, 9}))), 2);
+}
+
 TEST(Components, OfSpecialSets) {
     EXPECT_TRUE(trisect::components(Solid()).empty());
     EXPECT_EQ(trisect::components(box({0, 0, 0}, {1, 1, 1})).size(), 1U);
