@@ -51,7 +51,8 @@ struct ImportReport {
     /// closed without them exactly when it is with them.
     std::size_t degenerate_faces_dropped = 0;
     /// Edges whose traversals cancel only together with other edges of their line: a corner of one
-    /// face lies inside an edge of another. Closed nevertheless.
+    /// face lies inside an edge of another. Closed nevertheless. Of what is left without degenerate
+    /// faces.
     std::size_t t_edges = 0;
     bool closed = true;       ///< the faces' boundaries cancel
     bool inside_out = false;  ///< closed, and the enclosed volume is negative

@@ -153,6 +153,8 @@ private:
             if (options_.require_closed) throw InvalidSolid(sorted(out_.report.defects));
             return;
         }
+        if (!mesh_.degenerate_faces.empty())
+            out_.report.t_edges = detail::count_net_edges(mesh_.points.size(), mesh_.triangles);
         out_.report.inside_out = detail::volume_sign(mesh_.points, mesh_.triangles) < 0;
     }
 

@@ -41,6 +41,7 @@
 
 #include <trisect/brep/import/import_findings.h>
 #include <trisect/brep/import/own_lattice.h>
+#include <trisect/brep/import/prepared_mesh.h>
 #include <trisect/brep/import/side_balance.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/import/weld_points.h>
@@ -312,6 +313,7 @@ private:
             face.push_back(f);
         }
         triangles().resize(face.size());
+        out_.report.t_edges = count_net_edges(points().size(), triangles());
     }
 
     void drop_unused_points() {

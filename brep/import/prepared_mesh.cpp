@@ -102,4 +102,13 @@ std::vector<NetEdge> find_net_edges(std::size_t point_count,
     return out;
 }
 
+std::size_t count_net_edges(std::size_t point_count,
+                            std::span<const std::array<std::uint32_t, 3>> triangles) {
+    if (triangles.empty()) return 0;
+    std::vector<std::uint32_t> begin(triangles.size() + 1);
+    for (std::size_t i = 0; i < begin.size(); ++i) begin[i] = static_cast<std::uint32_t>(3 * i);
+    return find_net_edges(point_count, begin, {triangles.front().data(), 3 * triangles.size()})
+        .size();
+}
+
 }  // namespace trisect::detail

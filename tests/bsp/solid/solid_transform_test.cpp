@@ -246,9 +246,8 @@ TEST(Components, OfRoundBodiesOffTheLattice) {
 
 // A box whose bottom has a corner so near to one of its edges that rounding puts it there: the
 // triangle between them is gone, and its corner lies inside the edge of the side.
-trisect::PolygonMesh box_with_needle() {
+trisect::PolygonMesh box_with_needle(double near) {
     trisect::PolygonMesh mesh;
-    const double near = std::ldexp(1, -60);
     mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
                    {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, near, 0}};
     mesh.add_triangle(0, 8, 1);
@@ -262,7 +261,9 @@ trisect::PolygonMesh box_with_needle() {
 }
 
 TEST(SolidTransform, TrianglesThatRoundingMakesFlat) {
-    const Solid s = Solid::from_mesh(box_with_needle());
+    const Solid flat = Solid::from_mesh(box_with_needle(0));
+    EXPECT_EQ(flat.to_brep({.maximal_faces = false}).counts().shells, 1U);
+    const Solid s = Solid::from_mesh(box_with_needle(std::ldexp(1, -60)));
     LatticeReport report;
     const Solid there =
         trisect::transformed(s, trisect::AffineMap::translation({8, 8, 8}), &report);
