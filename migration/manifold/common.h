@@ -72,9 +72,7 @@ struct Box {
     [[nodiscard]] vec3 Size() const { return max - min; }
     [[nodiscard]] vec3 Center() const { return (min + max) * 0.5; }
     /// The largest absolute coordinate.
-    [[nodiscard]] double Scale() const {
-        return la::maxelem(la::max(la::abs(min), la::abs(max)));
-    }
+    [[nodiscard]] double Scale() const { return la::maxelem(la::max(la::abs(min), la::abs(max))); }
     [[nodiscard]] bool Contains(const vec3& p) const {
         return la::min(min, p) == min && la::max(max, p) == max;
     }
@@ -119,9 +117,7 @@ struct Rect {
     [[nodiscard]] vec2 Size() const { return max - min; }
     [[nodiscard]] double Area() const { return Size().x * Size().y; }
     [[nodiscard]] vec2 Center() const { return (min + max) * 0.5; }
-    [[nodiscard]] double Scale() const {
-        return la::maxelem(la::max(la::abs(min), la::abs(max)));
-    }
+    [[nodiscard]] double Scale() const { return la::maxelem(la::max(la::abs(min), la::abs(max))); }
     [[nodiscard]] bool IsEmpty() const { return !(min.x < max.x && min.y < max.y); }
     [[nodiscard]] bool Contains(const vec2& p) const {
         return la::min(min, p) == min && la::max(max, p) == max;

@@ -21,9 +21,9 @@ public:
     using JoinType = ::manifold::JoinType;
 
     CrossSection() = default;
-    CrossSection(const SimplePolygon& contour);    // NOLINT(google-explicit-constructor)
-    CrossSection(const Polygons& contours);        // NOLINT(google-explicit-constructor)
-    CrossSection(const Rect& rect);                // NOLINT(google-explicit-constructor)
+    CrossSection(const SimplePolygon& contour);  // NOLINT(google-explicit-constructor)
+    CrossSection(const Polygons& contours);      // NOLINT(google-explicit-constructor)
+    CrossSection(const Rect& rect);              // NOLINT(google-explicit-constructor)
     static CrossSection Square(vec2 dims, bool center = false);
     static CrossSection Circle(double radius, int circularSegments = 0);
     [[nodiscard]] Polygons ToPolygons() const { return polygons_; }

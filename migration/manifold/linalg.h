@@ -242,14 +242,11 @@ struct mat {
     constexpr mat(identity_t) {  // NOLINT(google-explicit-constructor): as in their programs
         for (int i = 0; i < std::min(M, N); ++i) columns[static_cast<std::size_t>(i)][i] = T(1);
     }
-    constexpr mat(const Column& a, const Column& b)
-        requires(N == 2)
-        : columns{a, b} {}
-    constexpr mat(const Column& a, const Column& b, const Column& c)
-        requires(N == 3)
+    constexpr mat(const Column& a, const Column& b) requires(N == 2) : columns{a, b} {}
+    constexpr mat(const Column& a, const Column& b, const Column& c) requires(N == 3)
         : columns{a, b, c} {}
-    constexpr mat(const Column& a, const Column& b, const Column& c, const Column& d)
-        requires(N == 4)
+    constexpr mat(const Column& a, const Column& b, const Column& c,
+                  const Column& d) requires(N == 4)
         : columns{a, b, c, d} {}
     /// The elements, column after column.
     constexpr explicit mat(const T* elements) {
@@ -262,14 +259,11 @@ struct mat {
     }
     /// The first N columns of a wider matrix.
     template <int Wider>
-        requires(Wider > N)
-    constexpr explicit mat(const mat<T, M, Wider>& other) {
+    requires(Wider > N) constexpr explicit mat(const mat<T, M, Wider>& other) {
         for (int j = 0; j < N; ++j) (*this)[j] = other[j];
     }
     /// A narrower matrix and the last column.
-    constexpr mat(const mat<T, M, N - 1>& left, const Column& last)
-        requires(N > 2)
-    {
+    constexpr mat(const mat<T, M, N - 1>& left, const Column& last) requires(N > 2) {
         for (int j = 0; j + 1 < N; ++j) (*this)[j] = left[j];
         (*this)[N - 1] = last;
     }

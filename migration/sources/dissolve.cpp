@@ -99,8 +99,8 @@ private:
 
     bool is_straight(const trisect::PlaneProjection& plane, HalfedgeId before, HalfedgeId h) {
         const VertexId v = brep_.origin(h);
-        return outgoing_[v.index] == 2 && plane.orientation(brep_.origin(before).index, v.index,
-                                                            brep_.target(h).index) == 0;
+        return outgoing_[v.index] == 2 &&
+               plane.orientation(brep_.origin(before).index, v.index, brep_.target(h).index) == 0;
     }
 
     Brep built(const std::vector<std::vector<trisect::IndexLoop>>& loops) const {
@@ -114,8 +114,8 @@ private:
         };
         for (const FaceId f : brep_.faces()) {
             if (loops[f.index].empty()) continue;
-            for (std::vector<trisect::IndexLoop>& piece : trisect::connected_regions(
-                     brep_.plane(f), brep_.points(), loops[f.index])) {
+            for (std::vector<trisect::IndexLoop>& piece :
+                 trisect::connected_regions(brep_.plane(f), brep_.points(), loops[f.index])) {
                 for (trisect::IndexLoop& loop : piece)
                     for (std::uint32_t& v : loop) v = vertex(v);
                 builder.add_face(brep_.plane(f), piece, brep_.source(f));

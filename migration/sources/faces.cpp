@@ -109,7 +109,8 @@ private:
         out_.properties.resize(at + out_.width);
         double* to = out_.properties.data() + at;
         for (std::size_t i = 0; i < from.width; ++i) {
-            if (terms.size() == 1) to[i] = from.properties[terms[0].first * from.width + i];
+            if (terms.size() == 1)
+                to[i] = from.properties[terms[0].first * from.width + i];
             else
                 for (const auto& [row, weight] : terms)
                     to[i] += weight / sum * from.properties[row * from.width + i];
@@ -223,7 +224,8 @@ std::shared_ptr<const FaceTable> face_table(TriMesh mesh, const std::vector<std:
 
 ManifoldNode::Ptr renamed(const ManifoldNode& node) {
     const NamedSolid& solid = node.solid();
-    if (node.is_mesh()) return ManifoldNode::of_mesh(node.mesh(), node.original(), node.tolerance());
+    if (node.is_mesh())
+        return ManifoldNode::of_mesh(node.mesh(), node.original(), node.tolerance());
     trisect::MeshMap map;
     try {
         const trisect::Brep brep = dissolved(solid.solid.to_brep({.maximal_faces = false}));

@@ -77,9 +77,12 @@ std::vector<std::uint32_t> open_vertices(const std::vector<std::uint32_t>& corne
     for (std::size_t i = 0; i < corner.size(); ++i) {
         const std::uint32_t a = corner[i];
         const std::uint32_t b = corner[i % 3 == 2 ? i - 2 : i + 1];
-        if (a == b) ++balance[{a, b}];
-        else if (a < b) ++balance[{a, b}];
-        else --balance[{b, a}];
+        if (a == b)
+            ++balance[{a, b}];
+        else if (a < b)
+            ++balance[{a, b}];
+        else
+            --balance[{b, a}];
     }
     std::vector<std::uint32_t> open;
     for (const auto& [side, count] : balance) {

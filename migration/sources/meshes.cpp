@@ -83,7 +83,9 @@ std::vector<std::uint32_t> rows_of(const MeshGLP<Number, Index>& m, DisjointSets
     if (m.mergeFromVert.empty()) return row;
     for (std::uint32_t v = 0; v < row.size(); ++v) {
         std::vector<std::uint32_t>& there = merged[sets.root(v)];
-        const auto begin = [&](std::uint32_t u) { return m.vertProperties.begin() + u * width + 3; };
+        const auto begin = [&](std::uint32_t u) {
+            return m.vertProperties.begin() + u * width + 3;
+        };
         const auto same = std::ranges::find_if(there, [&](std::uint32_t u) {
             return std::equal(begin(v), begin(v) + width - 3, begin(u));
         });
@@ -206,7 +208,8 @@ ManifoldNode::Ptr node_of(const MeshGLP<Number, Index>& m) {
     const int original = mesh.runs.size() == 1 ? mesh.runs[0].original : -1;
     auto tolerance = static_cast<double>(m.tolerance);
     if constexpr (sizeof(Number) < sizeof(double))
-        tolerance = std::max(tolerance, std::numeric_limits<Number>::epsilon() * box_of(mesh).Scale());
+        tolerance =
+            std::max(tolerance, std::numeric_limits<Number>::epsilon() * box_of(mesh).Scale());
     return ManifoldNode::of_mesh(std::move(mesh), original, tolerance);
 }
 

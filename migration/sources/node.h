@@ -27,9 +27,9 @@ struct FaceTable {
 /// What the faces that name one operand come from.
 struct FacePiece {
     std::shared_ptr<const FaceTable> table;
-    std::uint32_t first_run = 0;          ///< where the runs of the table's mesh are in the node's
-    mat3x4 place = la::identity;          ///< where the table's mesh was moved
-    bool flipped = false;                 ///< its faces look the other way
+    std::uint32_t first_run = 0;  ///< where the runs of the table's mesh are in the node's
+    mat3x4 place = la::identity;  ///< where the table's mesh was moved
+    bool flipped = false;         ///< its faces look the other way
 };
 
 /// A solid and what its faces are called.
@@ -70,7 +70,6 @@ public:
     [[nodiscard]] const NamedSolid& solid() const;
 
 private:
-
     Error status_ = Error::NoError;
     int original_ = -1;
     double tolerance_ = 0;

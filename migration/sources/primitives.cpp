@@ -62,12 +62,13 @@ Manifold Manifold::Cylinder(double height, double radiusLow, double radiusHigh,
     const double top = radiusHigh < 0 ? radiusLow : radiusHigh;
     if (!(height > 0 && radiusLow >= 0 && radiusLow + top > 0)) return failed();
     const double radius = std::max(radiusLow, top);
-    const int sides = circularSegments > 2 ? circularSegments : Quality::GetCircularSegments(radius);
+    const int sides =
+        circularSegments > 2 ? circularSegments : Quality::GetCircularSegments(radius);
     const Manifold standing =
-        radiusLow > 0
-            ? Extrude(circle(radiusLow, sides), height, 0, 0, vec2(top / radiusLow))
-            : Extrude(circle(top, sides), height, 0, 0, vec2(0.0)).Mirror({0, 0, 1}).Translate(
-                  {0, 0, height});
+        radiusLow > 0 ? Extrude(circle(radiusLow, sides), height, 0, 0, vec2(top / radiusLow))
+                      : Extrude(circle(top, sides), height, 0, 0, vec2(0.0))
+                            .Mirror({0, 0, 1})
+                            .Translate({0, 0, height});
     const TriMesh& mesh = standing.node()->mesh();
     mat3x4 place = la::identity;
     if (center) place[3].z = -height / 2;
@@ -198,10 +199,10 @@ Manifold Manifold::Revolve(const Polygons& crossSection, int circularSegments,
     if (profile.empty() || !(revolveDegrees > 0)) return failed();
     const double degrees = std::min(revolveDegrees, 360.0);
     const bool whole = degrees == 360.0;
-    const int sides = circularSegments > 2
-                          ? circularSegments
-                          : std::max(3, static_cast<int>(Quality::GetCircularSegments(radius) *
-                                                         degrees / 360));
+    const int sides =
+        circularSegments > 2
+            ? circularSegments
+            : std::max(3, static_cast<int>(Quality::GetCircularSegments(radius) * degrees / 360));
     const int rings = whole ? sides : sides + 1;
     TriMesh mesh;
     std::vector<std::uint32_t> first;  // by corner of the profile: its first point

@@ -117,8 +117,8 @@ void write_normals(TriMesh& mesh, std::size_t at, double degrees) {
             const std::uint32_t old = mesh.width == 0 ? no_side : mesh.rows[t][k];
             // Other places than the first have normals as the run's original lies.
             const std::uint32_t run = at == 0 ? 0 : mesh.run[t];
-            const auto [found, is_new] = number.try_emplace(
-                {fan, old, run}, static_cast<std::uint32_t>(number.size()));
+            const auto [found, is_new] =
+                number.try_emplace({fan, old, run}, static_cast<std::uint32_t>(number.size()));
             rows[t][k] = found->second;
             if (!is_new) continue;
             properties.resize(properties.size() + width);
@@ -126,8 +126,7 @@ void write_normals(TriMesh& mesh, std::size_t at, double degrees) {
             if (mesh.width != 0) std::copy_n(mesh.row(t, k), mesh.width, to);
             vec3 n = normal[fan];
             const Run& r = mesh.runs[mesh.run[t]];
-            if (at != 0)
-                n = la::inverse(normal_map(r.transform)) * n * (r.backside ? -1.0 : 1.0);
+            if (at != 0) n = la::inverse(normal_map(r.transform)) * n * (r.backside ? -1.0 : 1.0);
             if (la::length2(n) > 0) n = la::normalize(n);
             for (int i = 0; i < 3; ++i) to[at + static_cast<std::size_t>(i)] = n[i];
         }
@@ -244,8 +243,9 @@ Manifold Manifold::WarpBatch(const std::function<void(VecView<vec3>)>& warp) con
 
 Manifold Manifold::Refine(int pieces) const {
     if (Status() != Error::NoError || pieces < 2) return *this;
-    return Manifold(ManifoldNode::of_mesh(refined(node_->mesh(), static_cast<std::uint32_t>(pieces)),
-                                          node_->original(), node_->tolerance()));
+    return Manifold(
+        ManifoldNode::of_mesh(refined(node_->mesh(), static_cast<std::uint32_t>(pieces)),
+                              node_->original(), node_->tolerance()));
 }
 
 Manifold Manifold::Simplify(double tolerance) const {

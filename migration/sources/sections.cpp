@@ -131,10 +131,10 @@ CrossSection CrossSection::BatchBoolean(const std::vector<CrossSection>& section
     if (prisms.empty()) return {};
     using trisect::Expression;
     const std::span<const trisect::Solid> all(prisms);
-    const Expression formula =
-        op == OpType::Add         ? Expression::any_of(all)
-        : op == OpType::Intersect ? Expression::all_of(all)
-                                  : prisms[0] - Expression::any_of(all.subspan(1));
+    const Expression formula = op == OpType::Add ? Expression::any_of(all)
+                               : op == OpType::Intersect
+                                   ? Expression::all_of(all)
+                                   : prisms[0] - Expression::any_of(all.subspan(1));
     CrossSection result;
     result.polygons_ = section_of(trisect::evaluate(formula), middle);
     return result;
@@ -177,8 +177,8 @@ Polygons Manifold::Slice(double height) const {
     if (solid.is_empty()) return {};
     const Box box = BoundingBox();
     if (height < box.min.z || height >= box.max.z) return {};
-    return section_of(trisect::evaluate(solid & trisect::evaluate(
-                          ~trisect::Solid::half_space({0, 0, 1, -height}))),
+    return section_of(trisect::evaluate(solid & trisect::evaluate(~trisect::Solid::half_space(
+                                                    {0, 0, 1, -height}))),
                       height);
 }
 

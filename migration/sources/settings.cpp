@@ -24,10 +24,14 @@ double sind(double degrees) {
     int quarter = 0;
     const double rest = radians(std::remquo(degrees, 90.0, &quarter));
     switch (quarter & 3) {
-        case 0: return std::sin(rest);
-        case 1: return std::cos(rest);
-        case 2: return -std::sin(rest);
-        default: return -std::cos(rest);
+        case 0:
+            return std::sin(rest);
+        case 1:
+            return std::cos(rest);
+        case 2:
+            return -std::sin(rest);
+        default:
+            return -std::cos(rest);
     }
 }
 
@@ -36,10 +40,14 @@ double cosd(double degrees) {
     int quarter = 0;
     const double rest = radians(std::remquo(degrees, 90.0, &quarter));
     switch (quarter & 3) {
-        case 0: return std::cos(rest);
-        case 1: return -std::sin(rest);
-        case 2: return -std::cos(rest);
-        default: return std::sin(rest);
+        case 0:
+            return std::cos(rest);
+        case 1:
+            return -std::sin(rest);
+        case 2:
+            return -std::cos(rest);
+        default:
+            return std::sin(rest);
     }
 }
 

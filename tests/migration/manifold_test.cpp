@@ -61,7 +61,8 @@ TEST(ManifoldInterface, PropertiesAreInterpolated) {
 }
 
 TEST(ManifoldInterface, NormalsFollow) {
-    const Manifold hollow = Manifold::Cube(vec3(4.0), true) - Manifold::Sphere(1).CalculateNormals();
+    const Manifold hollow =
+        Manifold::Cube(vec3(4.0), true) - Manifold::Sphere(1).CalculateNormals();
     const MeshGL64 mesh = hollow.Rotate(30, 40, 50).GetMeshGL64();
     ASSERT_TRUE(mesh.HasNormals(1));
     for (std::size_t t = mesh.runIndex[1]; t < mesh.runIndex[2]; ++t) {

@@ -6,4 +6,4 @@
 #include <set>
 #include <sstream>
 
-#include "settings.h"
+#include <settings.h>
