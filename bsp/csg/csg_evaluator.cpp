@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Matrices go down to the shapes, so that a program is one formula over meshes. That is right as
+// long as a matrix changes axes, moves and scales: what was flush stays flush. Below a matrix that
+// turns otherwise rounded corners would come apart, so a group is evaluated first, where it is
+// flush, and turned as a whole.
+#include <trisect/bsp/csg/csg_evaluator.h>
+
+#include <utility>
+
+#include <trisect/brep/primitives/hull.h>
+#include <trisect/bsp/solid_transform.h>
+
+#include <trisect/bsp/csg/csg_extrude.h>
+#include <trisect/bsp/csg/csg_key.h>
+#include <trisect/bsp/csg/csg_region.h>
+#include <trisect/bsp/csg/csg_shapes.h>
+
+namespace trisect::detail {
+namespace {
+
+constexpr std::size_t most_remarks = 100;
+
+Expression joined(const std::vector<Expression>& terms) {
+    if (terms.empty()) return Solid();
+    return terms.size() == 1 ? terms[0] : Expression::any_of(terms);
+}
+
+PolygonMesh mesh_of(const CsgNode& node, const CsgArguments& arguments) {
+    if (node.name == "cube") return csg_cube(arguments);
+    if (node.name == "sphere") return csg_sphere(arguments);
+    if (node.name == "cylinder") return csg_cylinder(arguments);
+    return csg_polyhedron(arguments);
+}
+
+std::vector<Outline> outlines_of(const CsgNode& node, const CsgArguments& arguments) {
+    if (node.name == "square") return csg_square(arguments);
+    if (node.name == "circle") return csg_circle(arguments);
+    return csg_polygon(arguments);
+}
+
+}  // namespace
+
+Solid CsgEvaluator::run() {
+    return solid_of(any_of(program_.roots(), program_.dimension(), CsgFrame()));
+}
+
+void CsgEvaluator::remark(std::uint32_t n, const std::string& text) {
+    if (report_.remarks.size() < most_remarks)
+        report_.remarks.push_back(program_.place(n) + ": " + text);
+}
+
+Solid CsgEvaluator::solid_of(const Expression& formula) {
+    ++report_.evaluations;
+    return evaluate(formula, options_);
+}
+
+std::vector<Expression> CsgEvaluator::terms_of(const std::vector<std::uint32_t>& children,
+                                               int dimension, const CsgFrame& frame) {
+    std::vector<Expression> out;
+    for (const std::uint32_t n : program_.used(children)) {
+        if (program_.dimension(n) != 0 && program_.dimension(n) != dimension) {
+            remark(n, "left out, since it is of another dimension than what is before it");
+            continue;
+        }
+        out.push_back(expression_of(n, frame));
+    }
+    return out;
+}
+
+Expression CsgEvaluator::any_of(const std::vector<std::uint32_t>& children, int dimension,
+                                const CsgFrame& frame) {
+    return joined(terms_of(children, dimension, frame));
+}
+
+Expression CsgEvaluator::children_of(std::uint32_t n, const CsgFrame& frame) {
+    return any_of(program_.node(n).children, program_.dimension(n), frame);
+}
+
+Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
+    switch (program_.kind(n)) {
+        case CsgKind::Group:
+            return children_of(n, frame);
+        case CsgKind::Difference:
+            return difference(n, frame);
+        case CsgKind::Intersection: {
+            const auto terms = terms_of(program_.node(n).children, program_.dimension(n), frame);
+            return terms.size() < 2 ? joined(terms) : Expression::all_of(terms);
+        }
+        case CsgKind::Matrix:
+            return turned(n, frame);
+        case CsgKind::Hull:
+            return hull(n, frame);
+        case CsgKind::Linear:
+            return linear(n, frame);
+        case CsgKind::Revolved:
+            return revolved(n, frame);
+        case CsgKind::Solid:
+            return shape(n, frame);
+        case CsgKind::Flat:
+            return region(n, frame);
+        case CsgKind::Unknown:
+            break;
+    }
+    return Solid();
+}
+
+Expression CsgEvaluator::difference(std::uint32_t n, const CsgFrame& frame) {
+    std::vector<Expression> terms =
+        terms_of(program_.node(n).children, program_.dimension(n), frame);
+    if (terms.size() < 2) return joined(terms);
+    const Expression first = terms.front();
+    terms.erase(terms.begin());
+    return first - joined(terms);
+}
+
+/// Whether there is one shape only, so that there is nothing to be flush with.
+bool CsgEvaluator::is_single(std::uint32_t n) const {
+    const CsgKind kind = program_.kind(n);
+    if (kind == CsgKind::Solid || kind == CsgKind::Flat || kind == CsgKind::Revolved ||
+        kind == CsgKind::Hull)
+        return true;
+    if (kind == CsgKind::Linear && !is_straight(program_.arguments(n))) return true;
+    const std::vector<std::uint32_t> used = program_.used_children(n);
+    return used.empty() || (used.size() == 1 && is_single(used[0]));
+}
+
+Expression CsgEvaluator::turned(std::uint32_t n, const CsgFrame& frame) {
+    const AffineMap own = csg_matrix(program_.arguments(n), program_.dimension(n) == 2);
+    const AffineMap map = compose(frame.map, own);
+    if (map.orientation() == 0) {
+        remark(n, "left out, since the matrix makes it flat");
+        return Solid();
+    }
+    if (changes_axes(map) || is_single(n)) return children_of(n, {map, frame.low, frame.high});
+    const CsgFrame straight{AffineMap(), frame.low, frame.high};
+    const std::string key = csg_key(program_, n, straight, true);
+    auto it = solids_.find(key);
+    if (it == solids_.end()) it = solids_.emplace(key, solid_of(children_of(n, straight))).first;
+    return it->second.is_empty() ? it->second : transformed(it->second, map);
+}
+
+/// \throw CsgError with the place of the node for what import refuses
+template <class Work>
+auto CsgEvaluator::at_node(std::uint32_t n, Work&& work) const {
+    try {
+        return work();
+    } catch (const CsgError&) {
+        throw;
+    } catch (const CancelledError&) {
+        throw;
+    } catch (const Error& e) {
+        program_.arguments(n).fail(e.code(), e.what());
+    }
+}
+
+Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map) {
+    if (mesh.face_count() == 0) {
+        remark(n, "is empty");
+        return {};
+    }
+    SolidOptions options;
+    options.embedding = Embedding::Check;
+    return at_node(n, [&] {
+        return map == AffineMap() ? Solid::from_mesh(mesh, options)
+                                  : Solid::from_mesh(transformed(mesh, map), options);
+    });
+}
+
+Expression CsgEvaluator::shape(std::uint32_t n, const CsgFrame& frame) {
+    ++report_.leaves;
+    const std::string key = csg_key(program_, n, frame);
+    const auto it = solids_.find(key);
+    if (it != solids_.end()) return it->second;
+    ++report_.meshes;
+    const PolygonMesh mesh = mesh_of(program_.node(n), program_.arguments(n));
+    return solids_.emplace(key, placed(n, mesh, frame.map)).first->second;
+}
+
+Expression CsgEvaluator::region(std::uint32_t n, const CsgFrame& frame) {
+    ++report_.leaves;
+    const std::string key = csg_key(program_, n, frame);
+    const auto it = regions_.find(key);
+    if (it != regions_.end()) return it->second;
+    ++report_.meshes;
+    std::vector<Outline> paths = outlines_of(program_.node(n), program_.arguments(n));
+    if (paths.empty()) remark(n, "is empty");
+    const Expression prism = at_node(n, [&] { return even_odd_prism(std::move(paths), frame); });
+    return regions_.emplace(key, prism).first->second;
+}
+
+Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
+    const CsgArguments in = program_.arguments(n);
+    const double height = in.number("height", 100);
+    if (!(height > 0)) {
+        remark(n, "is empty");
+        return Solid();
+    }
+    const double low = in.truth("center", false) ? -height / 2 : 0;
+    if (is_straight(in))
+        return any_of(program_.node(n).children, 2, {frame.map, low, low + height});
+    const CsgRegion base = flat_children_of(n);
+    return placed(n, csg_twisted(base, in, low, low + height), frame.map);
+}
+
+Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
+    return placed(n, csg_revolved(flat_children_of(n), program_.arguments(n)), frame.map);
+}
+
+CsgRegion CsgEvaluator::flat_children_of(std::uint32_t n) {
+    return region_of_prism(solid_of(any_of(program_.node(n).children, 2, CsgFrame())));
+}
+
+Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {
+    std::vector<Point3d> points;
+    for (const std::uint32_t c : program_.used_children(n)) {
+        if (program_.dimension(c) != 0 && program_.dimension(c) != program_.dimension(n)) continue;
+        const PolygonMesh mesh = solid_of(expression_of(c, frame)).to_mesh();
+        points.insert(points.end(), mesh.points.begin(), mesh.points.end());
+    }
+    if (points.empty()) return Solid();
+    return at_node(n, [&] { return placed(n, make_hull(points), AffineMap()); });
+}
+
+}  // namespace trisect::detail

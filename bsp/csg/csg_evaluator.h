@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CsgEvaluator: one formula for a program, and the shapes that are its operands.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <trisect/brep/polygon_mesh.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+#include <trisect/bsp/csg/csg_evaluate.h>
+#include <trisect/bsp/csg/csg_extrude.h>
+#include <trisect/bsp/csg/csg_frame.h>
+#include <trisect/bsp/csg/csg_program.h>
+
+namespace trisect::detail {
+
+/// The program, the options and the report must outlive it.
+class CsgEvaluator {
+public:
+    CsgEvaluator(const CsgProgram& program, const EvaluateOptions& options, CsgReport& report)
+        : program_(program), options_(options), report_(report) {}
+
+    [[nodiscard]] Solid run();
+
+private:
+    void remark(std::uint32_t n, const std::string& text);
+    [[nodiscard]] Solid solid_of(const Expression& formula);
+
+    // Formulas of nodes.
+    [[nodiscard]] std::vector<Expression> terms_of(const std::vector<std::uint32_t>& children,
+                                                   int dimension, const CsgFrame& frame);
+    [[nodiscard]] Expression any_of(const std::vector<std::uint32_t>& children, int dimension,
+                                    const CsgFrame& frame);
+    [[nodiscard]] Expression children_of(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression expression_of(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression difference(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression turned(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] bool is_single(std::uint32_t n) const;
+
+    // Shapes.
+    template <class Work>
+    auto at_node(std::uint32_t n, Work&& work) const;
+    [[nodiscard]] Solid placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map);
+    [[nodiscard]] Expression shape(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression region(std::uint32_t n, const CsgFrame& frame);
+
+    // What is made of children.
+    [[nodiscard]] Expression linear(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression revolved(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] CsgRegion flat_children_of(std::uint32_t n);
+    [[nodiscard]] Expression hull(std::uint32_t n, const CsgFrame& frame);
+
+    const CsgProgram& program_;
+    const EvaluateOptions& options_;
+    CsgReport& report_;
+    std::map<std::string, Solid> solids_;
+    std::map<std::string, Expression> regions_;
+};
+
+}  // namespace trisect::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CsgFrame: where shapes are put.
+#pragma once
+
+#include <trisect/brep/transform.h>
+
+#include <trisect/bsp/csg/csg_arguments.h>
+
+namespace trisect::detail {
+
+/// Shapes of the plane become prisms between two heights first.
+struct CsgFrame {
+    AffineMap map;
+    double low = 0;
+    double high = 1;
+};
+
+/// The matrix of multmatrix(); `flat`: of the plane alone.
+/// \throw CsgError (Unsupported) unless the last row is 0, 0, 0, 1
+[[nodiscard]] AffineMap csg_matrix(const CsgArguments& arguments, bool flat);
+
+/// Whether each new axis is one of the old ones.
+[[nodiscard]] bool changes_axes(const AffineMap& map);
+
+}  // namespace trisect::detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// CsgKind: what a node does, by its name.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace trisect::detail {
+
+enum class CsgKind : std::uint8_t {
+    Group,
+    Difference,
+    Intersection,
+    Matrix,
+    Hull,
+    Linear,
+    Revolved,
+    Solid,  ///< a shape
+    Flat,   ///< a shape of the plane
+    Unknown
+};
+
+[[nodiscard]] CsgKind csg_kind(std::string_view name);
+
+}  // namespace trisect::detail

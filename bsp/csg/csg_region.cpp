@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <trisect/bsp/csg/csg_region.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/primitives/extrusion.h>
+#include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect::detail {
+namespace {
+
+Expression odd_of(std::vector<Expression> terms) {
+    if (terms.empty()) return Solid();
+    while (terms.size() > 1) {
+        std::vector<Expression> pairs;
+        for (std::size_t i = 0; i + 1 < terms.size(); i += 2)
+            pairs.push_back(terms[i] ^ terms[i + 1]);
+        if (terms.size() % 2 == 1) pairs.push_back(terms.back());
+        terms = std::move(pairs);
+    }
+    return terms[0];
+}
+
+/// Nothing when it has no area.
+std::optional<PolygonMesh> prism(const Outline& outline, const CsgFrame& frame) {
+    try {
+        return transformed(make_extrusion(outline, {}, frame.low, frame.high), frame.map);
+    } catch (const UsageError&) {
+        return std::nullopt;
+    }
+}
+
+/// A simple polygon is a prism; any other one is an odd number of the triangles of a fan.
+Expression even_odd(const Outline& outline, const CsgFrame& frame) {
+    if (const auto mesh = prism(outline, frame)) {
+        ImportedMesh imported = import_mesh(*mesh);
+        if (is_embedded(imported.mesh)) return Solid::from_import(std::move(imported));
+    }
+    std::vector<Expression> triangles;
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+        if (const auto mesh = prism({outline[0], outline[i], outline[i + 1]}, frame))
+            triangles.emplace_back(Solid::from_mesh(*mesh, {.embedding = Embedding::Check}));
+    return odd_of(triangles);
+}
+
+}  // namespace
+
+Expression even_odd_prism(std::vector<Outline> paths, const CsgFrame& frame) {
+    std::vector<Expression> terms;
+    for (Outline& outline : paths) {
+        outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
+        while (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
+        if (outline.size() >= 3) terms.push_back(even_odd(outline, frame));
+    }
+    return odd_of(terms);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Regions of the plane as prisms.
+#pragma once
+
+#include <vector>
+
+#include <trisect/brep/primitives/point_2d.h>
+#include <trisect/bsp/expression.h>
+
+#include <trisect/bsp/csg/csg_frame.h>
+
+namespace trisect::detail {
+
+/// Where an odd number of paths go around, between the heights of the frame; exact over the corners
+/// that the frame's map makes. The empty set where nothing has an area.
+[[nodiscard]] Expression even_odd_prism(std::vector<Outline> paths, const CsgFrame& frame);
+
+}  // namespace trisect::detail
