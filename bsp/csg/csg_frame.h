@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CsgFrame: where shapes are put.
+// CsgFrame: the place of shapes.
 #pragma once
 
 #include <trisect/brep/transform.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CsgKind: what a node does, by its name.
+// CsgKind: kinds of nodes, by their names.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CsgProgram: the part of a tree that counts, and the dimension of each node.
+// CsgProgram: the nodes of a tree that count.
 #pragma once
 
 #include <cstdint>
