@@ -2,6 +2,7 @@
 #include <trisect/bsp/csg/csg_extrude.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,27 +19,45 @@ double squared_distance(const Point3d& a, const Point3d& b) {
     return sum;
 }
 
-/// Two triangles that share the shorter diagonal.
-void add_quad(PolygonMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-              std::uint32_t d) {
-    const bool ac = squared_distance(mesh.points[a], mesh.points[c]) <=
-                    squared_distance(mesh.points[b], mesh.points[d]);
-    mesh.add_triangle(a, b, ac ? c : d);
-    if (ac)
+// Lengths that differ by less, relatively, are equal: rounded corners decide nothing.
+constexpr double equal_lengths = 1e-9;
+
+/// Two triangles that share the shorter diagonal; of equal ones that from a to c, or the other one.
+void add_quad(PolygonMesh& mesh, const std::array<std::uint32_t, 4>& quad, bool prefers_ac) {
+    const auto [a, b, c, d] = quad;
+    const double ac = squared_distance(mesh.points[a], mesh.points[c]);
+    const double bd = squared_distance(mesh.points[b], mesh.points[d]);
+    const bool are_equal = std::fabs(ac - bd) <= equal_lengths * (ac + bd);
+    const bool takes_ac = are_equal ? prefers_ac : ac < bd;
+    mesh.add_triangle(a, b, takes_ac ? c : d);
+    if (takes_ac)
         mesh.add_triangle(a, c, d);
     else
         mesh.add_triangle(b, c, d);
 }
 
-/// Walls between two copies of the points; those of the second one begin at `upper`.
-void add_walls(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower,
-               std::uint32_t upper) {
-    for (const auto& loop : region.loops)
+bool runs_counter_clockwise(const CsgRegion& region, const std::vector<std::uint32_t>& loop) {
+    double twice_area = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        const Point2d& p = region.points[loop[i]];
+        const Point2d& q = region.points[loop[(i + 1) % loop.size()]];
+        twice_area += p[0] * q[1] - p[1] * q[0];
+    }
+    return twice_area > 0;
+}
+
+/// Walls between two copies of the points; those of the second one begin at `upper`. Of equal
+/// diagonals that one is taken which goes up along a loop that runs counter-clockwise, if `along`.
+void add_walls(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower, std::uint32_t upper,
+               bool along) {
+    for (const auto& loop : region.loops) {
+        const bool prefers_ac = runs_counter_clockwise(region, loop) == along;
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const std::uint32_t a = loop[i];
             const std::uint32_t b = loop[(i + 1) % loop.size()];
-            add_quad(mesh, lower + a, lower + b, upper + b, upper + a);
+            add_quad(mesh, {lower + a, lower + b, upper + b, upper + a}, prefers_ac);
         }
+    }
 }
 
 void add_ends(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower,
@@ -128,7 +147,8 @@ PolygonMesh csg_twisted(const CsgRegion& region, const CsgArguments& arguments, 
         for (const Point2d& p : region.points)
             mesh.points.push_back({sx * (c * p[0] - s * p[1]), sy * (s * p[0] + c * p[1]), z});
     }
-    for (std::uint32_t k = 0; k < slices; ++k) add_walls(mesh, region, k * n, (k + 1) * n);
+    for (std::uint32_t k = 0; k < slices; ++k)
+        add_walls(mesh, region, k * n, (k + 1) * n, twist > 0);
     add_ends(mesh, region, 0, slices * n);
     return mesh;
 }
@@ -143,7 +163,8 @@ PolygonMesh csg_revolved(const CsgRegion& region, const CsgArguments& arguments)
     if (least < 0 && most > 0)
         arguments.fail(ErrorCode::Input, "the region is on both sides of the axis x = 0");
     const double given = arguments.number("angle", 360);
-    const bool is_full = std::fabs(given) >= 360 || given == 0;
+    if (given == 0) return {};
+    const bool is_full = std::fabs(given) >= 360;
     const double angle = is_full ? 360 : given;
     const double sides = csg_fragments(arguments, most - least);
     const std::uint32_t steps =
@@ -156,7 +177,7 @@ PolygonMesh csg_revolved(const CsgRegion& region, const CsgArguments& arguments)
             mesh.points.push_back({p[0] * cosine_of_degrees(at), p[0] * sine_of_degrees(at), p[1]});
     }
     for (std::uint32_t k = 0; k < steps; ++k)
-        add_walls(mesh, region, k * n, (is_full && k + 1 == steps ? 0 : k + 1) * n);
+        add_walls(mesh, region, k * n, (is_full && k + 1 == steps ? 0 : k + 1) * n, true);
     if (!is_full) add_ends(mesh, region, 0, steps * n);
     // Moved along +y, as here at first, a region of the plane xz lies the other way round.
     if ((most > 0) == (angle > 0)) turn_over(mesh);

@@ -98,6 +98,27 @@ TEST(CsgEvaluate, TaperedTwistedAndTurnedExtrusions) {
     EXPECT_GT(twisted, 0.9);
 }
 
+// Edges on lines through the axis have walls with two equal diagonals: the one is taken that goes
+// up along the outline, or down where it is twisted the other way, so that mirrored twists have
+// equal volumes. The figures are OpenSCAD's.
+TEST(CsgEvaluate, EqualDiagonalsOfTwistedWallsFollowTheTwist) {
+    const auto twisted = [](const std::string& twist, const std::string& shape) {
+        return volume(evaluate_csg(parse_csg(
+            "linear_extrude(height = 10, slices = 3, twist = " + twist + ")" + shape, "f")));
+    };
+    const std::string at_axis = "square(size = 20);";
+    EXPECT_NEAR(twisted("30", at_axis), 4211.27441, 1e-3);
+    EXPECT_NEAR(twisted("-30", at_axis), 4211.27441, 1e-3);
+    const std::string hole_at_axis =
+        "difference() { square(size = 60, center = true); square(size = 20); }";
+    EXPECT_NEAR(twisted("30", hole_at_axis), 33690.19575, 2e-3);
+    EXPECT_NEAR(twisted("-30", hole_at_axis), 33690.19575, 2e-3);
+}
+
+TEST(CsgEvaluate, ATurnByNoAngleIsEmpty) {
+    EXPECT_EQ(volume_of("rotate_extrude(angle = 0) square(size = 1);"), "0");
+}
+
 TEST(CsgEvaluate, HullsAndTurnedGroups) {
     EXPECT_EQ(volume_of("hull() { cube(size = 1);"
                         "multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(size = 1); }"),
