@@ -61,7 +61,9 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
     const CsgTree tree = session.stage("read", [&] { return read_program(options.input); });
     CsgReport report;
     const Solid solid = session.interruptible_stage("evaluate", [&] {
-        return evaluate_csg(tree, session.evaluation_options(OperandOptions()), &report);
+        CsgOptions how;
+        how.evaluate = session.evaluation_options(OperandOptions());
+        return evaluate_csg(tree, how, &report);
     });
     for (const std::string& remark : report.remarks) session.note(remark);
     if (report.is_flat)

@@ -41,6 +41,19 @@ bool CsgArguments::truth(std::string_view name, bool otherwise) const {
     return *value->truth();
 }
 
+std::vector<bool> CsgArguments::truths(std::string_view name, std::size_t count) const {
+    const CsgValue* value = find(name);
+    if (value == nullptr) return std::vector<bool>(count, false);
+    const auto one = [&](const CsgValue& v) {
+        return v.truth() != nullptr ? *v.truth() : number(v) != 0;
+    };
+    if (value->list() == nullptr) return std::vector<bool>(count, one(*value));
+    std::vector<bool> out;
+    for (const CsgValue& v : *value->list()) out.push_back(one(v));
+    out.resize(count, false);
+    return out;
+}
+
 const CsgValue::List& CsgArguments::list(const CsgValue& value) const {
     if (value.list() == nullptr) fail(ErrorCode::Input, value.place, "a list was expected");
     return *value.list();

@@ -6,7 +6,7 @@
 
 namespace trisect {
 
-Solid evaluate_csg(const CsgTree& tree, const EvaluateOptions& options, CsgReport* report) {
+Solid evaluate_csg(const CsgTree& tree, const CsgOptions& options, CsgReport* report) {
     CsgReport own;
     CsgReport& out = report == nullptr ? own : *report;
     out = CsgReport();

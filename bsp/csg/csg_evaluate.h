@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,13 @@
 #include <trisect/bsp/solid.h>
 
 namespace trisect {
+
+struct CsgOptions {
+    EvaluateOptions evaluate = {};
+    /// Where relative names of import() and surface() start; nothing: that of CsgTree::file.
+    std::optional<std::filesystem::path> folder = std::nullopt;
+    bool reads_files = true;  ///< otherwise import() and surface() are refused
+};
 
 struct CsgReport {
     std::size_t nodes = 0;        ///< of the program
@@ -31,7 +40,7 @@ struct CsgReport {
 /// rotate_extrude() takes them.
 /// \throw CsgError: (Unsupported) for nodes that are not known, (Input) for arguments that make no
 /// sense, (InvalidSolid) for a polyhedron that bounds no solid; what evaluate() throws
-[[nodiscard]] Solid evaluate_csg(const CsgTree& tree, const EvaluateOptions& options = {},
+[[nodiscard]] Solid evaluate_csg(const CsgTree& tree, const CsgOptions& options = {},
                                  CsgReport* report = nullptr);
 
 }  // namespace trisect

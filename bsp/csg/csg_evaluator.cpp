@@ -12,6 +12,7 @@
 #include <trisect/bsp/solid_transform.h>
 
 #include <trisect/bsp/csg/csg_extrude.h>
+#include <trisect/bsp/csg/csg_import.h>
 #include <trisect/bsp/csg/csg_key.h>
 #include <trisect/bsp/csg/csg_region.h>
 #include <trisect/bsp/csg/csg_shapes.h>
@@ -24,13 +25,6 @@ constexpr std::size_t most_remarks = 100;
 Expression joined(const std::vector<Expression>& terms) {
     if (terms.empty()) return Solid();
     return terms.size() == 1 ? terms[0] : Expression::any_of(terms);
-}
-
-PolygonMesh mesh_of(const CsgNode& node, const CsgArguments& arguments) {
-    if (node.name == "cube") return csg_cube(arguments);
-    if (node.name == "sphere") return csg_sphere(arguments);
-    if (node.name == "cylinder") return csg_cylinder(arguments);
-    return csg_polyhedron(arguments);
 }
 
 std::vector<Outline> outlines_of(const CsgNode& node, const CsgArguments& arguments) {
@@ -52,7 +46,7 @@ void CsgEvaluator::remark(std::uint32_t n, const std::string& text) {
 
 Solid CsgEvaluator::solid_of(const Expression& formula) {
     ++report_.evaluations;
-    return evaluate(formula, options_);
+    return evaluate(formula, options_.evaluate);
 }
 
 std::vector<Expression> CsgEvaluator::terms_of(const std::vector<std::uint32_t>& children,
@@ -83,18 +77,23 @@ Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
             return children_of(n, frame);
         case CsgKind::Difference:
             return difference(n, frame);
-        case CsgKind::Intersection: {
-            const auto terms = terms_of(program_.node(n).children, program_.dimension(n), frame);
-            return terms.size() < 2 ? joined(terms) : Expression::all_of(terms);
-        }
+        case CsgKind::Intersection:
+            return intersection(n, frame);
         case CsgKind::Matrix:
-            return turned(n, frame);
+            return turned(n, csg_matrix(program_.arguments(n), program_.dimension(n) == 2), frame);
         case CsgKind::Hull:
             return hull(n, frame);
         case CsgKind::Linear:
             return linear(n, frame);
         case CsgKind::Revolved:
             return revolved(n, frame);
+        case CsgKind::Minkowski:
+        case CsgKind::Offset:
+        case CsgKind::Projection:
+            return made(n, frame);
+        case CsgKind::Resize:
+            return resized(n, frame);
+        case CsgKind::Import:
         case CsgKind::Solid:
             return shape(n, frame);
         case CsgKind::Flat:
@@ -114,19 +113,23 @@ Expression CsgEvaluator::difference(std::uint32_t n, const CsgFrame& frame) {
     return first - joined(terms);
 }
 
+/// Empty where a child is of another dimension.
+Expression CsgEvaluator::intersection(std::uint32_t n, const CsgFrame& frame) {
+    const auto terms = terms_of(program_.node(n).children, program_.dimension(n), frame);
+    if (terms.size() < program_.used_children(n).size()) return Solid();
+    return terms.size() < 2 ? joined(terms) : Expression::all_of(terms);
+}
+
 /// Whether there is one shape only, so that there is nothing to be flush with.
 bool CsgEvaluator::is_single(std::uint32_t n) const {
     const CsgKind kind = program_.kind(n);
-    if (kind == CsgKind::Solid || kind == CsgKind::Flat || kind == CsgKind::Revolved ||
-        kind == CsgKind::Hull)
-        return true;
+    if (csg_is_whole(kind)) return true;
     if (kind == CsgKind::Linear && !is_straight(program_.arguments(n))) return true;
     const std::vector<std::uint32_t> used = program_.used_children(n);
     return used.empty() || (used.size() == 1 && is_single(used[0]));
 }
 
-Expression CsgEvaluator::turned(std::uint32_t n, const CsgFrame& frame) {
-    const AffineMap own = csg_matrix(program_.arguments(n), program_.dimension(n) == 2);
+Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const CsgFrame& frame) {
     const AffineMap map = compose(frame.map, own);
     if (map.orientation() == 0) {
         remark(n, "left out, since the matrix makes it flat");
@@ -138,20 +141,6 @@ Expression CsgEvaluator::turned(std::uint32_t n, const CsgFrame& frame) {
     auto it = solids_.find(key);
     if (it == solids_.end()) it = solids_.emplace(key, solid_of(children_of(n, straight))).first;
     return it->second.is_empty() ? it->second : transformed(it->second, map);
-}
-
-/// \throw CsgError with the place of the node for what import refuses
-template <class Work>
-auto CsgEvaluator::at_node(std::uint32_t n, Work&& work) const {
-    try {
-        return work();
-    } catch (const CsgError&) {
-        throw;
-    } catch (const CancelledError&) {
-        throw;
-    } catch (const Error& e) {
-        program_.arguments(n).fail(e.code(), e.what());
-    }
 }
 
 Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map) {
@@ -167,14 +156,33 @@ Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const Affin
     });
 }
 
+PolygonMesh CsgEvaluator::mesh_of(std::uint32_t n) {
+    const std::string& name = program_.node(n).name;
+    const CsgArguments in = program_.arguments(n);
+    if (name == "cube") return csg_cube(in);
+    if (name == "sphere") return csg_sphere(in);
+    if (name == "cylinder") return csg_cylinder(in);
+    return name == "polyhedron" ? csg_polyhedron(in) : file_of(n);
+}
+
+/// Nothing when no file is named, as OpenSCAD has it where a program named none.
+PolygonMesh CsgEvaluator::file_of(std::uint32_t n) {
+    const CsgArguments in = program_.arguments(n);
+    if (!options_.reads_files) in.fail(ErrorCode::Unsupported, "files are not read");
+    const std::filesystem::path file = csg_file(in, options_.folder.value_or(program_.folder()));
+    if (file.empty()) return {};
+    return at_node(n, [&] {
+        return program_.kind(n) == CsgKind::Import ? csg_import(in, file) : csg_surface(in, file);
+    });
+}
+
 Expression CsgEvaluator::shape(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame);
     const auto it = solids_.find(key);
     if (it != solids_.end()) return it->second;
     ++report_.meshes;
-    const PolygonMesh mesh = mesh_of(program_.node(n), program_.arguments(n));
-    return solids_.emplace(key, placed(n, mesh, frame.map)).first->second;
+    return solids_.emplace(key, placed(n, mesh_of(n), frame.map)).first->second;
 }
 
 Expression CsgEvaluator::region(std::uint32_t n, const CsgFrame& frame) {
@@ -199,7 +207,7 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
     const double low = in.truth("center", false) ? -height / 2 : 0;
     if (is_straight(in))
         return any_of(program_.node(n).children, 2, {frame.map, low, low + height});
-    const CsgRegion base = flat_children_of(n);
+    const PlaneRegion base = flat_children_of(n);
     return placed(n, csg_twisted(base, in, low, low + height), frame.map);
 }
 
@@ -207,8 +215,8 @@ Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
     return placed(n, csg_revolved(flat_children_of(n), program_.arguments(n)), frame.map);
 }
 
-CsgRegion CsgEvaluator::flat_children_of(std::uint32_t n) {
-    return region_of_prism(solid_of(any_of(program_.node(n).children, 2, CsgFrame())));
+PlaneRegion CsgEvaluator::flat_children_of(std::uint32_t n) {
+    return region_of_faces(solid_of(any_of(program_.node(n).children, 2, CsgFrame())), 1);
 }
 
 Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {

@@ -22,7 +22,7 @@ namespace trisect::detail {
 /// The program, the options and the report must outlive it.
 class CsgEvaluator {
 public:
-    CsgEvaluator(const CsgProgram& program, const EvaluateOptions& options, CsgReport& report)
+    CsgEvaluator(const CsgProgram& program, const CsgOptions& options, CsgReport& report)
         : program_(program), options_(options), report_(report) {}
 
     [[nodiscard]] Solid run();
@@ -39,24 +39,47 @@ private:
     [[nodiscard]] Expression children_of(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression expression_of(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression difference(std::uint32_t n, const CsgFrame& frame);
-    [[nodiscard]] Expression turned(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression intersection(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression turned(std::uint32_t n, const AffineMap& own, const CsgFrame& frame);
     [[nodiscard]] bool is_single(std::uint32_t n) const;
 
     // Shapes.
+    /// \throw CsgError with the place of the node for what import refuses
     template <class Work>
-    auto at_node(std::uint32_t n, Work&& work) const;
+    auto at_node(std::uint32_t n, Work&& work) const {
+        try {
+            return work();
+        } catch (const CsgError&) {
+            throw;
+        } catch (const CancelledError&) {
+            throw;
+        } catch (const Error& e) {
+            program_.arguments(n).fail(e.code(), e.what());
+        }
+    }
     [[nodiscard]] Solid placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map);
+    [[nodiscard]] PolygonMesh mesh_of(std::uint32_t n);
     [[nodiscard]] Expression shape(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression region(std::uint32_t n, const CsgFrame& frame);
 
     // What is made of children.
     [[nodiscard]] Expression linear(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression revolved(std::uint32_t n, const CsgFrame& frame);
-    [[nodiscard]] CsgRegion flat_children_of(std::uint32_t n);
+    [[nodiscard]] PlaneRegion flat_children_of(std::uint32_t n);
     [[nodiscard]] Expression hull(std::uint32_t n, const CsgFrame& frame);
 
+    // What is made at the origin first, and put into place as a whole.
+    [[nodiscard]] Expression made(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Solid made_at_origin(std::uint32_t n);
+    [[nodiscard]] std::vector<Solid> operands_of(std::uint32_t n);
+    [[nodiscard]] Solid minkowski(std::uint32_t n);
+    [[nodiscard]] Solid offset(std::uint32_t n);
+    [[nodiscard]] Solid projection(std::uint32_t n);
+    [[nodiscard]] Expression resized(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] PolygonMesh file_of(std::uint32_t n);
+
     const CsgProgram& program_;
-    const EvaluateOptions& options_;
+    const CsgOptions& options_;
     CsgReport& report_;
     std::map<std::string, Solid> solids_;
     std::map<std::string, Expression> regions_;

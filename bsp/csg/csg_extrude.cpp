@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <trisect/brep/brep_mesh.h>
-
 #include <trisect/bsp/csg/csg_shapes.h>
 
 namespace trisect::detail {
@@ -36,7 +34,7 @@ void add_quad(PolygonMesh& mesh, const std::array<std::uint32_t, 4>& quad, bool 
         mesh.add_triangle(b, c, d);
 }
 
-bool runs_counter_clockwise(const CsgRegion& region, const std::vector<std::uint32_t>& loop) {
+bool runs_counter_clockwise(const PlaneRegion& region, const std::vector<std::uint32_t>& loop) {
     double twice_area = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
         const Point2d& p = region.points[loop[i]];
@@ -48,8 +46,8 @@ bool runs_counter_clockwise(const CsgRegion& region, const std::vector<std::uint
 
 /// Walls between two copies of the points; those of the second one begin at `upper`. Of equal
 /// diagonals that one is taken which goes up along a loop that runs counter-clockwise, if `along`.
-void add_walls(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower, std::uint32_t upper,
-               bool along) {
+void add_walls(PolygonMesh& mesh, const PlaneRegion& region, std::uint32_t lower,
+               std::uint32_t upper, bool along) {
     for (const auto& loop : region.loops) {
         const bool prefers_ac = runs_counter_clockwise(region, loop) == along;
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -60,7 +58,7 @@ void add_walls(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower, 
     }
 }
 
-void add_ends(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower,
+void add_ends(PolygonMesh& mesh, const PlaneRegion& region, std::uint32_t lower,
               std::uint32_t upper) {
     for (const auto& [a, b, c] : region.triangles) {
         mesh.add_triangle(lower + a, lower + c, lower + b);
@@ -68,7 +66,7 @@ void add_ends(PolygonMesh& mesh, const CsgRegion& region, std::uint32_t lower,
     }
 }
 
-double largest_radius(const CsgRegion& region) {
+double largest_radius(const PlaneRegion& region) {
     double out = 0;
     for (const Point2d& p : region.points) out = std::max(out, std::hypot(p[0], p[1]));
     return out;
@@ -86,16 +84,10 @@ double default_slices(const CsgArguments& arguments, double radius, double heigh
     return std::max(std::min(by_angle, by_way), least);
 }
 
-std::uint32_t layer_count(const CsgArguments& arguments, const CsgRegion& region, double layers) {
+std::uint32_t layer_count(const CsgArguments& arguments, const PlaneRegion& region, double layers) {
     if (!(layers * static_cast<double>(region.points.size()) <= shape_limit))
         arguments.fail(ErrorCode::Limit, "too many facets");
     return static_cast<std::uint32_t>(layers);
-}
-
-bool is_at_top(const Brep& brep, const PolygonMesh& mesh, FaceId f) {
-    for (const HalfedgeId h : brep.halfedges(f))
-        if (mesh.points[brep.origin(h).index][2] != 1) return false;
-    return true;
 }
 
 void turn_over(PolygonMesh& mesh) {
@@ -106,29 +98,12 @@ void turn_over(PolygonMesh& mesh) {
 
 }  // namespace
 
-CsgRegion region_of_prism(const Solid& prism) {
-    CsgRegion out;
-    const Brep brep = prism.to_brep();
-    const PolygonMesh mesh = to_polygon_mesh(brep);
-    for (const Point3d& p : mesh.points) out.points.push_back({p[0], p[1]});
-    for (const FaceId f : brep.faces()) {
-        if (!is_at_top(brep, mesh, f)) continue;
-        for (const LoopId l : brep.loops(f)) {
-            auto& loop = out.loops.emplace_back();
-            for (const HalfedgeId h : brep.halfedges(l)) loop.push_back(brep.origin(h).index);
-        }
-        const std::vector<IndexTriangle> triangles = triangulate(brep, f);
-        out.triangles.insert(out.triangles.end(), triangles.begin(), triangles.end());
-    }
-    return out;
-}
-
 bool is_straight(const CsgArguments& arguments) {
     const std::vector<double> scale = arguments.numbers("scale", 2, 1);
     return arguments.number("twist", 0) == 0 && scale[0] == 1 && scale[1] == 1;
 }
 
-PolygonMesh csg_twisted(const CsgRegion& region, const CsgArguments& arguments, double low,
+PolygonMesh csg_twisted(const PlaneRegion& region, const CsgArguments& arguments, double low,
                         double high) {
     const double twist = arguments.number("twist", 0);
     const std::vector<double> scale = arguments.numbers("scale", 2, 1);
@@ -153,7 +128,7 @@ PolygonMesh csg_twisted(const CsgRegion& region, const CsgArguments& arguments, 
     return mesh;
 }
 
-PolygonMesh csg_revolved(const CsgRegion& region, const CsgArguments& arguments) {
+PolygonMesh csg_revolved(const PlaneRegion& region, const CsgArguments& arguments) {
     double least = 0;
     double most = 0;
     for (const Point2d& p : region.points) {

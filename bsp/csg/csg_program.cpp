@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/bsp/csg/csg_program.h>
 
+#include <trisect/bsp/csg/csg_import.h>
+
 namespace trisect::detail {
 
 CsgProgram::CsgProgram(const CsgTree& tree) : tree_(tree), roots_(chosen_roots()) {
@@ -48,10 +50,8 @@ void CsgProgram::refuse_unknown() const {
 void CsgProgram::find_dimensions() {
     dimensions_.assign(tree_.nodes.size(), 0);
     for (auto n = static_cast<std::uint32_t>(tree_.nodes.size()); n-- > 0;) {
-        const CsgKind k = kind(n);
-        if (k == CsgKind::Flat) dimensions_[n] = 2;
-        if (k == CsgKind::Solid || k == CsgKind::Linear || k == CsgKind::Revolved)
-            dimensions_[n] = 3;
+        dimensions_[n] = csg_dimension(kind(n));
+        if (kind(n) == CsgKind::Import) dimensions_[n] = is_flat_import(arguments(n)) ? 2 : 3;
         if (dimensions_[n] == 0) dimensions_[n] = dimension_of(node(n).children);
     }
 }

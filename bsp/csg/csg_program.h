@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ public:
     [[nodiscard]] CsgArguments arguments(std::uint32_t n) const { return {tree_, node(n)}; }
     /// FILE:LINE:COLUMN: NAME
     [[nodiscard]] std::string place(std::uint32_t n) const;
+
+    /// That of the program's file.
+    [[nodiscard]] std::filesystem::path folder() const {
+        return std::filesystem::path(tree_.file).parent_path();
+    }
 
     /// "!" makes its node the whole program, without what is around it.
     [[nodiscard]] const std::vector<std::uint32_t>& roots() const { return roots_; }

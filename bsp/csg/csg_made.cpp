@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Nodes whose solids are made of the solids of their children: Minkowski sums, offsets, projections
+// and resized ones. They are made at the origin, once for equal content, and put into place.
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <trisect/bsp/modelling/minkowski.h>
+#include <trisect/bsp/modelling/offset.h>
+#include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/bsp/modelling/projection.h>
+#include <trisect/bsp/solid_measure.h>
+#include <trisect/bsp/solid_transform.h>
+
+#include <trisect/bsp/csg/csg_evaluator.h>
+#include <trisect/bsp/csg/csg_key.h>
+#include <trisect/bsp/csg/csg_shapes.h>
+
+namespace trisect::detail {
+namespace {
+
+bool is_at_origin(const CsgFrame& frame) {
+    return frame.map == AffineMap() && frame.low == 0 && frame.high == 1;
+}
+
+/// Of resize(): a size that is not positive leaves its axis as it is, or, if it is to follow, gives
+/// it the factor of the axis with the largest new size.
+std::array<double, 3> factors_of(const CsgArguments& in, const Bounds& box, int dimension) {
+    const std::vector<double> sizes = in.numbers("newsize", 3, 0);
+    const std::vector<bool> follows = in.truths("auto", 3);
+    const auto axes = static_cast<std::size_t>(dimension);
+    std::array<double, 3> out{1, 1, 1};
+    std::size_t largest = 0;
+    for (std::size_t k = 0; k < axes; ++k) {
+        if (sizes[k] > 0) out[k] = sizes[k] / (box.hi[k] - box.lo[k]);
+        if (sizes[k] > sizes[largest]) largest = k;
+    }
+    for (std::size_t k = 0; k < axes; ++k)
+        if (!(sizes[k] > 0) && follows[k]) out[k] = out[largest];
+    return out;
+}
+
+}  // namespace
+
+Expression CsgEvaluator::made(std::uint32_t n, const CsgFrame& frame) {
+    const std::string key = csg_key(program_, n, CsgFrame());
+    auto it = solids_.find(key);
+    if (it == solids_.end())
+        it = solids_.emplace(key, at_node(n, [&] { return made_at_origin(n); })).first;
+    const Solid& solid = it->second;
+    if (solid.is_empty() || is_at_origin(frame)) return solid;
+    if (program_.dimension(n) == 3) return transformed(solid, frame.map);
+    const PlaneRegion region = region_of_faces(solid, 1);
+    return placed(n, prism_of_region(region, frame.low, frame.high), frame.map);
+}
+
+Solid CsgEvaluator::made_at_origin(std::uint32_t n) {
+    switch (program_.kind(n)) {
+        case CsgKind::Offset:
+            return offset(n);
+        case CsgKind::Projection:
+            return projection(n);
+        default:
+            return minkowski(n);
+    }
+}
+
+/// Children of the node's dimension. As OpenSCAD has it, solids that are empty are left out, while
+/// an empty region makes the sum empty.
+std::vector<Solid> CsgEvaluator::operands_of(std::uint32_t n) {
+    std::vector<Solid> out;
+    for (const std::uint32_t c : program_.used_children(n)) {
+        if (program_.dimension(c) != program_.dimension(n)) continue;
+        Solid solid = solid_of(expression_of(c, CsgFrame()));
+        if (!solid.is_empty() || program_.dimension(n) == 2) out.push_back(std::move(solid));
+    }
+    if (out.size() < program_.used_children(n).size())
+        remark(n, "operands that are empty or of another dimension are left out");
+    return out;
+}
+
+Solid CsgEvaluator::minkowski(std::uint32_t n) {
+    MinkowskiOptions options;
+    options.evaluate = options_.evaluate;
+    options.convex = MinkowskiOptions::Convex::WithinRounding;
+    std::optional<Solid> out;
+    for (const Solid& operand : operands_of(n)) {
+        if (!out)
+            out = operand;
+        else
+            out = program_.dimension(n) == 2 ? minkowski_sum_of_regions(*out, operand, options)
+                                             : minkowski_sum(*out, operand, options);
+    }
+    return out.value_or(Solid());
+}
+
+Solid CsgEvaluator::offset(std::uint32_t n) {
+    const CsgArguments in = program_.arguments(n);
+    OffsetOptions options;
+    options.evaluate = options_.evaluate;
+    double distance = in.number("r", 1);
+    if (in.find("r") == nullptr && in.find("delta") != nullptr) {
+        distance = in.number("delta", 1);
+        options.corners = in.truth("chamfer", false) ? OffsetOptions::Corners::Chamfer
+                                                     : OffsetOptions::Corners::Miter;
+    }
+    options.segments = csg_fragments(in, std::fabs(distance));
+    return offset_of_region(solid_of(any_of(program_.node(n).children, 2, CsgFrame())), distance,
+                            options);
+}
+
+Solid CsgEvaluator::projection(std::uint32_t n) {
+    const Solid solid = solid_of(any_of(program_.node(n).children, 3, CsgFrame()));
+    return program_.arguments(n).truth("cut", false)
+               ? solid_of_region(section(solid, 0, options_.evaluate))
+               : shadow(solid, options_.evaluate);
+}
+
+Expression CsgEvaluator::resized(std::uint32_t n, const CsgFrame& frame) {
+    const int dimension = program_.dimension(n);
+    const std::optional<Bounds> box = bounds(solid_of(children_of(n, CsgFrame())));
+    if (!box) return Solid();
+    const auto [x, y, z] = factors_of(program_.arguments(n), *box, dimension);
+    return turned(n, AffineMap::scaling({x, y, z}), frame);
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <trisect/bsp/modelling/convex_pieces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/hull.h>
+#include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/bsp/solid_measure.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect::detail {
+namespace {
+
+/// How far a corner moves when it is rounded, on each axis, at most.
+double rounding_step(const PolygonMesh& mesh) {
+    double extent = 0;
+    for (const Point3d& p : mesh.points)
+        for (const double c : p) extent = std::max(extent, std::fabs(c));
+    return std::ldexp(extent, -53);
+}
+
+/// How far a point is below the nearest plane of a face of a hull, in doubles.
+double depth_below(const PolygonMesh& hull, const Point3d& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < hull.face_count(); ++f) {
+        const Point3d& a = hull.points[hull.face(f)[0]];
+        const Point3d& b = hull.points[hull.face(f)[1]];
+        const Point3d& c = hull.points[hull.face(f)[2]];
+        const Point3d u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        const Point3d v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        const Point3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                        u[0] * v[1] - u[1] * v[0]};
+        const double height = n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2]);
+        least = std::min(least, -height / std::hypot(n[0], n[1], n[2]));
+    }
+    return least;
+}
+
+/// Whether corners and volume miss the hull by no more than rounding moves them.
+bool is_convex_within_rounding(const Solid& solid, const PolygonMesh& mesh, const Solid& hull,
+                               const PolygonMesh& around) {
+    const double step = rounding_step(mesh);
+    if (!(volume(hull) - volume(solid) <= 4 * area(hull).value * step)) return false;
+    const std::set<Point3d> outermost(around.points.begin(), around.points.end());
+    return std::all_of(mesh.points.begin(), mesh.points.end(), [&](const Point3d& p) {
+        return outermost.count(p) > 0 || depth_below(around, p) <= 8 * step;
+    });
+}
+
+/// The corners of the hull, if the solid is convex.
+std::optional<std::vector<Point3d>> convex_corners(const Solid& solid, const PolygonMesh& mesh,
+                                                   const MinkowskiOptions& options) {
+    const PolygonMesh around = make_hull(mesh.points);
+    const Solid hull = Solid::from_mesh(around);
+    // Of two sets, one within the other, equal volumes make one set.
+    const bool is_convex = exact_volume(hull) == exact_volume(solid) ||
+                           (options.convex == MinkowskiOptions::Convex::WithinRounding &&
+                            is_convex_within_rounding(solid, mesh, hull, around));
+    if (!is_convex) return std::nullopt;
+    return around.points;
+}
+
+/// One corner of each part that is connected by triangles.
+std::vector<Point3d> representatives_of(const PolygonMesh& mesh) {
+    std::vector<std::uint32_t> parent(mesh.points.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    const auto root = [&](std::uint32_t v) {
+        while (parent[v] != v) v = parent[v] = parent[parent[v]];
+        return v;
+    };
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        for (const std::uint32_t v : mesh.face(f)) parent[root(v)] = root(mesh.face(f)[0]);
+    std::set<std::uint32_t> roots;
+    for (const std::uint32_t v : mesh.corners) roots.insert(root(v));
+    std::vector<Point3d> out;
+    for (const std::uint32_t v : roots) out.push_back(mesh.points[v]);
+    return out;
+}
+
+ConvexPieces whole(std::vector<Point3d> corners) {
+    ConvexPieces out;
+    out.is_convex = true;
+    out.representatives = {corners.front()};
+    out.pieces.push_back(std::move(corners));
+    return out;
+}
+
+ConvexPieces triangles_of(const PolygonMesh& mesh) {
+    ConvexPieces out;
+    out.representatives = representatives_of(mesh);
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        auto& piece = out.pieces.emplace_back();
+        for (const std::uint32_t v : mesh.face(f)) piece.push_back(mesh.points[v]);
+    }
+    return out;
+}
+
+}  // namespace
+
+ConvexPieces pieces_of_boundary(const Solid& solid) { return triangles_of(solid.to_mesh()); }
+
+ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options) {
+    const PolygonMesh mesh = solid.to_mesh();
+    if (auto corners = convex_corners(solid, mesh, options)) return whole(std::move(*corners));
+    return triangles_of(mesh);
+}
+
+ConvexPieces pieces_of_region(const Solid& prism, bool edges, const MinkowskiOptions& options) {
+    if (auto corners = convex_corners(prism, prism.to_mesh(), options)) {
+        if (edges) std::erase_if(*corners, [](const Point3d& p) { return p[2] != 0; });
+        return whole(std::move(*corners));
+    }
+    ConvexPieces out;
+    const PlaneRegion region = region_of_faces(prism, 1);
+    for (const auto& loop : region.loops) {
+        const auto [x, y] = region.points[loop[0]];
+        out.representatives.push_back({x, y, 0});
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            auto& piece = out.pieces.emplace_back();
+            for (const std::uint32_t v : {loop[i], loop[(i + 1) % loop.size()]})
+                for (const double z : {0.0, 1.0})
+                    if (z == 0 || !edges)
+                        piece.push_back({region.points[v][0], region.points[v][1], z});
+        }
+    }
+    return out;
+}
+
+}  // namespace trisect::detail

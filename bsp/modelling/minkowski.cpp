@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// No solid is cut into convex parts here. A point x is in the sum of A and B where A meets B turned
+// about the origin and moved to x. Then their boundaries meet, and x is a sum of two points of the
+// boundaries; or a whole part of one boundary lies in the other solid, and x is the sum of any
+// point of that part and a point of the other solid. So the sum is the union of the sums of all
+// pairs of triangles, and of B moved to one point of each part of A's boundary, and the other way
+// round. Where B is convex, sums of a triangle and B take the place of the first two.
+#include <trisect/bsp/modelling/minkowski.h>
+
+#include <string>
+#include <vector>
+
+#include <trisect/brep/transform.h>
+#include <trisect/bsp/modelling/convex_pieces.h>
+#include <trisect/bsp/modelling/sum_hull.h>
+#include <trisect/bsp/solid_transform.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+namespace {
+
+using detail::ConvexPieces;
+
+Solid moved(const Solid& solid, const Point3d& by) {
+    return transformed(solid, AffineMap::translation(by));
+}
+
+/// The solid turned about the origin.
+Solid turned_about(const Solid& solid) {
+    return transformed(solid, AffineMap::scaling({-1, -1, -1}));
+}
+
+/// Sums of all pieces of the one and all pieces of the other.
+std::vector<Solid> sums_of_pieces(const ConvexPieces& a, const ConvexPieces& b,
+                                  const MinkowskiOptions& options) {
+    if (a.pieces.size() > options.most_pieces / b.pieces.size())
+        throw LimitError("a Minkowski sum of more than " + std::to_string(options.most_pieces) +
+                         " convex pieces");
+    std::vector<Solid> out;
+    for (const auto& p : a.pieces)
+        for (const auto& q : b.pieces)
+            if (const auto hull = detail::sum_hull(p, q)) out.push_back(Solid::from_mesh(*hull));
+    return out;
+}
+
+void add_moved(std::vector<Solid>& out, const Solid& solid, const std::vector<Point3d>& to) {
+    for (const Point3d& p : to) out.push_back(moved(solid, p));
+}
+
+Solid sum_of(const Solid& a, const ConvexPieces& in_a, const Solid& b, const ConvexPieces& in_b,
+             const MinkowskiOptions& options) {
+    std::vector<Solid> terms = sums_of_pieces(in_a, in_b, options);
+    if (in_a.is_convex && in_b.is_convex) return terms.empty() ? Solid() : terms[0];
+    if (!in_a.is_convex) add_moved(terms, a, in_b.representatives);
+    if (!in_b.is_convex) add_moved(terms, b, in_a.representatives);
+    return evaluate(Expression::any_of(terms), options.evaluate);
+}
+
+}  // namespace
+
+Solid minkowski_sum(const Solid& a, const Solid& b, const MinkowskiOptions& options) {
+    if (a.is_empty() || b.is_empty()) return {};
+    return sum_of(a, detail::pieces_of_solid(a, options), b, detail::pieces_of_solid(b, options),
+                  options);
+}
+
+Solid minkowski_sum_of_regions(const Solid& a, const Solid& b, const MinkowskiOptions& options) {
+    if (a.is_empty() || b.is_empty()) return {};
+    return sum_of(a, detail::pieces_of_region(a, true, options), b,
+                  detail::pieces_of_region(b, false, options), options);
+}
+
+// `b` moved to x is within `a` where one point of each of its parts is, and its boundary meets that
+// of `a` nowhere: where x is in no sum of the boundary of `a` and `b` turned about the origin.
+Solid minkowski_difference(const Solid& a, const Solid& b, const MinkowskiOptions& options) {
+    if (a.is_empty() || b.is_empty()) return a;
+    const Solid turned = turned_about(b);
+    const ConvexPieces in_a = detail::pieces_of_boundary(a);
+    const ConvexPieces in_b = detail::pieces_of_solid(turned, options);
+    std::vector<Solid> swept = sums_of_pieces(in_a, in_b, options);
+    if (!in_b.is_convex) add_moved(swept, turned, in_a.representatives);
+    std::vector<Solid> kept;
+    add_moved(kept, a, in_b.representatives);
+    return evaluate(Expression::all_of(kept) - Expression::any_of(swept), options.evaluate);
+}
+
+}  // namespace trisect

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <trisect/bsp/modelling/offset.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <trisect/brep/primitives/extrusion.h>
+#include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+namespace {
+
+using Corners = OffsetOptions::Corners;
+
+Point2d moved(const Point2d& p, const Point2d& along, double by) {
+    return {p[0] + by * along[0], p[1] + by * along[1]};
+}
+
+/// To the right of the way from p to q, which is outward; of length 1.
+Point2d normal(const Point2d& p, const Point2d& q) {
+    const double size = std::hypot(q[0] - p[0], q[1] - p[1]);
+    return {(q[1] - p[1]) / size, (p[0] - q[0]) / size};
+}
+
+double cross(const Point2d& a, const Point2d& b) { return a[0] * b[1] - a[1] * b[0]; }
+double dot(const Point2d& a, const Point2d& b) { return a[0] * b[0] + a[1] * b[1]; }
+
+class Strips {
+public:
+    Strips(double distance, const OffsetOptions& options)
+        : distance_(distance), options_(options) {}
+
+    void add_loop(const std::vector<Point2d>& loop) {
+        const std::size_t n = loop.size();
+        for (std::size_t i = 0; i < n; ++i) {
+            const Point2d& p = loop[i];
+            const Point2d& q = loop[(i + 1) % n];
+            const Point2d along = normal(p, q);
+            add({p, q, moved(q, along, distance_), moved(p, along, distance_)});
+            add_corner(q, along, normal(q, loop[(i + 2) % n]));
+        }
+    }
+    [[nodiscard]] const std::vector<Solid>& solids() const { return solids_; }
+
+private:
+    /// Left out when it has no area.
+    void add(const Outline& outline) {
+        try {
+            solids_.push_back(Solid::from_mesh(make_extrusion(outline, {}, 0, 1)));
+        } catch (const UsageError&) {
+        }
+    }
+
+    /// Between the strips of two edges, where they are apart.
+    void add_corner(const Point2d& at, const Point2d& before, const Point2d& after) {
+        const double turn = std::atan2(cross(before, after), dot(before, after));
+        if (!(turn * distance_ > 0)) return;
+        Outline piece{at, moved(at, before, distance_)};
+        if (options_.corners == Corners::Round) add_arc(piece, at, before, turn);
+        if (options_.corners == Corners::Miter) add_miter(piece, at, before, after);
+        if (options_.corners == Corners::Chamfer) add_chamfer(piece, at, before, after, turn);
+        piece.push_back(moved(at, after, distance_));
+        add(piece);
+    }
+
+    void add_arc(Outline& piece, const Point2d& at, const Point2d& before, double turn) const {
+        const double step = std::copysign(2 * std::numbers::pi / options_.segments, turn);
+        const double count = std::max(std::round(turn / step), 1.0);
+        for (double i = 1; i < count; ++i) {
+            const double c = std::cos(i * step);
+            const double s = std::sin(i * step);
+            const Point2d along{c * before[0] - s * before[1], s * before[0] + c * before[1]};
+            piece.push_back(moved(at, along, distance_));
+        }
+    }
+
+    void add_miter(Outline& piece, const Point2d& at, const Point2d& before,
+                   const Point2d& after) const {
+        // The bisector over 1 + cos: its length grows without bound towards a turn by 180 degrees.
+        const double whole = 1 + dot(before, after);
+        if (whole > 0x1p-40)
+            piece.push_back(
+                moved(at, {before[0] + after[0], before[1] + after[1]}, distance_ / whole));
+    }
+
+    void add_chamfer(Outline& piece, const Point2d& at, const Point2d& before, const Point2d& after,
+                     double turn) const {
+        const double along_edge = std::fabs(distance_) * std::tan(std::fabs(turn) / 4);
+        const Point2d onward{-before[1], before[0]};
+        const Point2d back{after[1], -after[0]};
+        piece.push_back(moved(moved(at, before, distance_), onward, along_edge));
+        piece.push_back(moved(moved(at, after, distance_), back, along_edge));
+    }
+
+    double distance_;
+    const OffsetOptions& options_;
+    std::vector<Solid> solids_;
+};
+
+}  // namespace
+
+Solid offset_of_region(const Solid& prism, double distance, const OffsetOptions& options) {
+    if (!std::isfinite(distance)) throw UsageError("an offset must be finite");
+    if (options.segments < 3) throw UsageError("an arc needs at least three segments to a circle");
+    if (distance == 0 || prism.is_empty()) return prism;
+    const PlaneRegion region = region_of_faces(prism, 1);
+    Strips strips(distance, options);
+    for (const auto& loop : region.loops) {
+        std::vector<Point2d> points;
+        for (const std::uint32_t v : loop) points.push_back(region.points[v]);
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        while (points.size() > 1 && points.front() == points.back()) points.pop_back();
+        if (points.size() >= 3) strips.add_loop(points);
+    }
+    const Expression pieces = Expression::any_of(strips.solids());
+    const Solid base = solid_of_region(region);
+    return evaluate(distance > 0 ? base | pieces : base - pieces, options.evaluate);
+}
+
+}  // namespace trisect

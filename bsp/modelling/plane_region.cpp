@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <trisect/bsp/modelling/plane_region.h>
+
+#include <algorithm>
+#include <array>
+
+#include <trisect/brep/brep_mesh.h>
+
+namespace trisect {
+namespace {
+
+bool lies_at(const Brep& brep, const PolygonMesh& mesh, FaceId f, double height) {
+    for (const HalfedgeId h : brep.halfedges(f))
+        if (mesh.points[brep.origin(h).index][2] != height) return false;
+    return true;
+}
+
+/// Twice the area seen from above, over all loops of a face: its sign is where the face looks to.
+double twice_area(const Brep& brep, const PolygonMesh& mesh, FaceId f) {
+    double out = 0;
+    for (const LoopId l : brep.loops(f)) {
+        std::vector<Point3d> loop;
+        for (const HalfedgeId h : brep.halfedges(l))
+            loop.push_back(mesh.points[brep.origin(h).index]);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Point3d& p = loop[i];
+            const Point3d& q = loop[(i + 1) % loop.size()];
+            out += (p[0] - loop[0][0]) * (q[1] - loop[0][1]) -
+                   (p[1] - loop[0][1]) * (q[0] - loop[0][0]);
+        }
+    }
+    return out;
+}
+
+void add_face(PlaneRegion& out, const Brep& brep, FaceId f, bool turn_over) {
+    for (const LoopId l : brep.loops(f)) {
+        auto& loop = out.loops.emplace_back();
+        for (const HalfedgeId h : brep.halfedges(l)) loop.push_back(brep.origin(h).index);
+        if (turn_over) std::reverse(loop.begin(), loop.end());
+    }
+    for (const auto& [a, b, c] : triangulate(brep, f))
+        out.triangles.push_back(turn_over ? IndexTriangle{a, c, b} : IndexTriangle{a, b, c});
+}
+
+}  // namespace
+
+PlaneRegion region_of_faces(const Solid& solid, double height, FacesLook look) {
+    PlaneRegion out;
+    const Brep brep = solid.to_brep();
+    const PolygonMesh mesh = to_polygon_mesh(brep);
+    for (const Point3d& p : mesh.points) out.points.push_back({p[0], p[1]});
+    for (const FaceId f : brep.faces())
+        if (lies_at(brep, mesh, f, height) &&
+            (twice_area(brep, mesh, f) > 0) == (look == FacesLook::Up))
+            add_face(out, brep, f, look == FacesLook::Down);
+    return out;
+}
+
+PolygonMesh prism_of_region(const PlaneRegion& region, double low, double high) {
+    PolygonMesh mesh;
+    const auto n = static_cast<std::uint32_t>(region.points.size());
+    for (const double z : {low, high})
+        for (const Point2d& p : region.points) mesh.points.push_back({p[0], p[1], z});
+    for (const auto& loop : region.loops)
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const std::uint32_t a = loop[i];
+            const std::uint32_t b = loop[(i + 1) % loop.size()];
+            mesh.add_face(std::array{a, b, n + b, n + a});
+        }
+    for (const auto& [a, b, c] : region.triangles) {
+        mesh.add_triangle(a, c, b);
+        mesh.add_triangle(n + a, n + b, n + c);
+    }
+    return mesh;
+}
+
+Solid solid_of_region(const PlaneRegion& region, double low, double high) {
+    if (region.triangles.empty()) return {};
+    return Solid::from_mesh(prism_of_region(region, low, high), {.embedding = Embedding::Check});
+}
+
+}  // namespace trisect

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Regions of the plane, as outlines and as prisms.
+// A region that takes part in formulas is the prism over it between z = 0 and z = 1.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <trisect/brep/polygon_mesh.h>
+#include <trisect/brep/primitives/point_2d.h>
+#include <trisect/brep/triangulate.h>
+#include <trisect/bsp/solid.h>
+
+namespace trisect {
+
+/// Outlines run counter-clockwise, holes clockwise; the inside is on the left of every loop.
+struct PlaneRegion {
+    std::vector<Point2d> points;
+    std::vector<std::vector<std::uint32_t>> loops;
+    std::vector<IndexTriangle> triangles;
+};
+
+/// The faces of a solid at one height that look up, or down: their regions, seen from above.
+/// Corners that are no doubles are rounded, once; all others are as they are. Costs to_brep().
+/// \throw UnsupportedError for an unbounded set
+enum class FacesLook : std::uint8_t { Up, Down };
+[[nodiscard]] PlaneRegion region_of_faces(const Solid& solid, double height,
+                                          FacesLook look = FacesLook::Up);
+
+/// The prism over a region, between two heights: walls are quadrilaterals, ends triangles.
+[[nodiscard]] PolygonMesh prism_of_region(const PlaneRegion& region, double low, double high);
+
+/// The same as a solid; outlines that rounding made meet themselves are resolved.
+[[nodiscard]] Solid solid_of_region(const PlaneRegion& region, double low = 0, double high = 1);
+
+}  // namespace trisect
