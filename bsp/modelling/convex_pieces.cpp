@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -26,32 +27,48 @@ double rounding_step(const PolygonMesh& mesh) {
     return std::ldexp(extent, -53);
 }
 
-/// How far a point is below the nearest plane of a face of a hull, in doubles.
-double depth_below(const PolygonMesh& hull, const Point3d& p) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t f = 0; f < hull.face_count(); ++f) {
-        const Point3d& a = hull.points[hull.face(f)[0]];
-        const Point3d& b = hull.points[hull.face(f)[1]];
-        const Point3d& c = hull.points[hull.face(f)[2]];
-        const Point3d u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-        const Point3d v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-        const Point3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                        u[0] * v[1] - u[1] * v[0]};
-        const double height = n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2]);
-        least = std::min(least, -height / std::hypot(n[0], n[1], n[2]));
-    }
-    return least;
+/// How far a point is above the plane of a triangle, in doubles.
+double height_above(const PolygonMesh& mesh, std::size_t f, const Point3d& p) {
+    const Point3d& a = mesh.points[mesh.face(f)[0]];
+    const Point3d& b = mesh.points[mesh.face(f)[1]];
+    const Point3d& c = mesh.points[mesh.face(f)[2]];
+    const Point3d u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const Point3d v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    const Point3d n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                    u[0] * v[1] - u[1] * v[0]};
+    const double size = std::hypot(n[0], n[1], n[2]);
+    if (size == 0) return std::numeric_limits<double>::infinity();
+    return (n[0] * (p[0] - a[0]) + n[1] * (p[1] - a[1]) + n[2] * (p[2] - a[2])) / size;
 }
 
-/// Whether corners and volume miss the hull by no more than rounding moves them.
-bool is_convex_within_rounding(const Solid& solid, const PolygonMesh& mesh, const Solid& hull,
-                               const PolygonMesh& around) {
-    const double step = rounding_step(mesh);
-    if (!(volume(hull) - volume(solid) <= 4 * area(hull).value * step)) return false;
-    const std::set<Point3d> outermost(around.points.begin(), around.points.end());
-    return std::all_of(mesh.points.begin(), mesh.points.end(), [&](const Point3d& p) {
-        return outermost.count(p) > 0 || depth_below(around, p) <= 8 * step;
+/// Whether no edge bends inward by more than `depth`. Of two triangles the one counts above which
+/// the other is lower: planes of needles say nothing far from them.
+bool bends_outward(const PolygonMesh& mesh, double depth) {
+    const auto each_edge = [&](const auto& work) {
+        for (std::size_t f = 0; f < mesh.face_count(); ++f)
+            for (std::size_t k = 0; k < 3; ++k)
+                work(f, mesh.face(f)[k], mesh.face(f)[(k + 1) % 3], mesh.face(f)[(k + 2) % 3]);
+    };
+    // The face on the left of an edge, and its third corner.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::uint32_t>> left;
+    each_edge([&](std::size_t f, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        left[{a, b}] = {f, c};
     });
+    bool out = true;
+    each_edge([&](std::size_t f, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const auto right = left.find({b, a});
+        out = out && right != left.end() &&
+              std::min(height_above(mesh, f, mesh.points[right->second.second]),
+                       height_above(mesh, right->second.first, mesh.points[c])) <= depth;
+    });
+    return out;
+}
+
+/// Whether edges and volume miss those of the hull by no more than rounding moves corners.
+bool is_convex_within_rounding(const Solid& solid, const PolygonMesh& mesh, const Solid& hull) {
+    const double step = rounding_step(mesh);
+    return volume(hull) - volume(solid) <= 4 * area(hull).value * step &&
+           bends_outward(mesh, 8 * step);
 }
 
 /// The corners of the hull, if the solid is convex.
@@ -62,7 +79,7 @@ std::optional<std::vector<Point3d>> convex_corners(const Solid& solid, const Pol
     // Of two sets, one within the other, equal volumes make one set.
     const bool is_convex = exact_volume(hull) == exact_volume(solid) ||
                            (options.convex == MinkowskiOptions::Convex::WithinRounding &&
-                            is_convex_within_rounding(solid, mesh, hull, around));
+                            is_convex_within_rounding(solid, mesh, hull));
     if (!is_convex) return std::nullopt;
     return around.points;
 }
