@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hulls, Minkowski sums and differences of random solids on a small grid, and the same with CGAL:
+// convex_hull_3 and minkowski_sum_3 in rationals. The boundaries must be the same sets.
+//
+//     modelling_sets [--seed S] [--hulls N] [--sums M] [--only I]
+//
+// Prints a line for each difference, with the number that repeats it; exits with 1 if there was
+// any. The first N numbers are hulls of two solids, the next M sums and differences of two.
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/convex_hull_3.h>
+
+#include <trisect/bsp/modelling/hull_of_solids.h>
+#include <trisect/bsp/modelling/minkowski.h>
+
+#include "engines/engines.h"
+#include "reference/nef_polyhedron.h"
+
+// After Nef_polyhedron_3.h, which it does not include.
+#include <CGAL/minkowski_sum_3.h>
+
+namespace {
+
+using reference::CanonicalBoundary;
+using reference::Nef;
+using reference::NefKernel;
+using reference::Operand;
+using reference::Random;
+using Polyhedron = CGAL::Polyhedron_3<NefKernel>;
+
+struct Options {
+    std::uint64_t seed = 1;
+    std::uint64_t hulls = 1000;
+    std::uint64_t sums = 100;
+    std::uint64_t only = ~std::uint64_t{0};
+};
+
+struct Counts {
+    std::uint64_t results = 0;
+    std::uint64_t empty = 0;
+    std::uint64_t different = 0;
+    double ours = 0;
+    double cgal = 0;
+};
+
+template <class Work>
+auto timed(double& seconds, Work&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    auto out = work();
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+CanonicalBoundary hull_by_cgal(const std::vector<Operand>& operands) {
+    std::vector<NefKernel::Point_3> points;
+    const auto number = [](std::int64_t x) { return CGAL::Gmpq(static_cast<int>(x)); };
+    for (const Operand& operand : operands)
+        for (const reference::Triangle& triangle : operand)
+            for (const auto& [x, y, z] : triangle)
+                points.emplace_back(number(x), number(y), number(z));
+    Polyhedron hull;
+    CGAL::convex_hull_3(points.begin(), points.end(), hull);
+    Nef nef(hull);
+    return reference::boundary_of(nef);
+}
+
+Operand turned_about(const Operand& operand) {
+    Operand out = reference::reversed(operand);
+    for (reference::Triangle& triangle : out)
+        for (reference::LatticePoint& p : triangle) p = {-p[0], -p[1], -p[2]};
+    return out;
+}
+
+Nef sum_by_cgal(const Operand& a, const Operand& b) {
+    Nef first = reference::to_nef(a);
+    Nef second = reference::to_nef(b);
+    return CGAL::minkowski_sum_3(first, second);
+}
+
+// What is left of `a` without the sum of its surroundings, in a box, and `b` turned about.
+Nef difference_by_cgal(const Operand& a, const Operand& b) {
+    const Nef whole = reference::to_nef(a);
+    Nef around = reference::to_nef(reference::box({-200, -200, -200}, {200, 200, 200})) - whole;
+    Nef turned = reference::to_nef(turned_about(b));
+    return whole - CGAL::minkowski_sum_3(around, turned);
+}
+
+class Campaign {
+public:
+    explicit Campaign(const Options& options) : options_(options) {}
+
+    void run(std::uint64_t number) {
+        Random mix(options_.seed * 2 + 1);
+        Random random(mix.next() + number);
+        const std::vector<Operand> pair = random_family(random, 2, true);
+        const std::vector<trisect::Solid> solids{
+            engines::solid(pair[0], trisect::Embedding::Assume),
+            engines::solid(pair[1], trisect::Embedding::Assume)};
+        if (number < options_.hulls) {
+            compare(
+                number, "hull", [&] { return trisect::hull(solids); },
+                [&] { return hull_by_cgal(pair); });
+            return;
+        }
+        compare(
+            number, "sum", [&] { return trisect::minkowski_sum(solids[0], solids[1]); },
+            [&] { return reference::boundary_of(sum_by_cgal(pair[0], pair[1])); });
+        compare(
+            number, "difference",
+            [&] { return trisect::minkowski_difference(solids[0], solids[1]); },
+            [&] { return reference::boundary_of(difference_by_cgal(pair[0], pair[1])); });
+    }
+    [[nodiscard]] const Counts& counts() const { return counts_; }
+
+private:
+    template <class Ours, class Theirs>
+    void compare(std::uint64_t number, const char* what, Ours&& ours, Theirs&& theirs) {
+        const CanonicalBoundary expected = timed(counts_.cgal, theirs);
+        ++counts_.results;
+        if (expected.empty()) ++counts_.empty;
+        std::string why;
+        try {
+            why = engines::difference(timed(counts_.ours, ours).to_brep(), expected);
+        } catch (const std::exception& e) {
+            why = e.what();
+        }
+        if (why.empty()) return;
+        ++counts_.different;
+        const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
+        std::printf("DIFFERENT --seed %llu --hulls %llu --sums %llu --only %llu, %s: %s\n",
+                    n(options_.seed), n(options_.hulls), n(options_.sums), n(number), what,
+                    why.c_str());
+        std::fflush(stdout);
+    }
+
+    const Options& options_;
+    Counts counts_;
+};
+
+bool parse(int argc, char** argv, Options& out) {
+    for (int i = 1; i < argc; i += 2) {
+        if (i + 1 == argc) return false;
+        const std::string_view word = argv[i];
+        const std::uint64_t value = std::strtoull(argv[i + 1], nullptr, 10);
+        if (word == "--seed")
+            out.seed = value;
+        else if (word == "--hulls")
+            out.hulls = value;
+        else if (word == "--sums")
+            out.sums = value;
+        else if (word == "--only")
+            out.only = value;
+        else
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    if (!parse(argc, argv, options)) {
+        std::fprintf(stderr,
+                     "usage: modelling_sets [--seed S] [--hulls N] [--sums M] [--only I]\n");
+        return 2;
+    }
+    Campaign campaign(options);
+    const bool one = options.only != ~std::uint64_t{0};
+    const std::uint64_t end = one ? options.only + 1 : options.hulls + options.sums;
+    for (std::uint64_t i = one ? options.only : 0; i < end; ++i) campaign.run(i);
+    const Counts& c = campaign.counts();
+    const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
+    std::printf(
+        "%llu results (seed %llu), %llu of them empty, %llu different; %.1f s, CGAL %.1f s\n",
+        n(c.results), n(options.seed), n(c.empty), n(c.different), c.ours, c.cgal);
+    return c.different == 0 ? 0 : 1;
+}
