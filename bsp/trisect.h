@@ -51,6 +51,10 @@
 #include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/bsp/interference/solid_motion.h>
 #include <trisect/bsp/interference/solid_regions.h>
+#include <trisect/bsp/modelling/hull_of_solids.h>
+#include <trisect/bsp/modelling/minkowski.h>
+#include <trisect/bsp/modelling/offset.h>
+#include <trisect/bsp/modelling/projection.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>

@@ -16,6 +16,7 @@
 #include <trisect/bsp/modelling/sum_hull.h>
 #include <trisect/bsp/solid_transform.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 namespace {
@@ -39,8 +40,10 @@ std::vector<Solid> sums_of_pieces(const ConvexPieces& a, const ConvexPieces& b,
                          " convex pieces");
     std::vector<Solid> out;
     for (const auto& p : a.pieces)
-        for (const auto& q : b.pieces)
+        for (const auto& q : b.pieces) {
+            detail::check_stop(p.size() * q.size());
             if (const auto hull = detail::sum_hull(p, q)) out.push_back(Solid::from_mesh(*hull));
+        }
     return out;
 }
 

@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/primitives/extrusion.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/stop_scope.h>
 
 namespace trisect {
 namespace {
@@ -48,8 +50,10 @@ PlaneRegion section(const Solid& solid, double height, const EvaluateOptions& op
 Solid shadow(const Solid& solid, const EvaluateOptions& options) {
     const PolygonMesh mesh = solid.to_mesh();
     std::vector<Solid> prisms;
-    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        detail::check_stop();
         if (auto prism = prism_over(mesh, f)) prisms.push_back(std::move(*prism));
+    }
     return evaluate(Expression::any_of(prisms), options);
 }
 

@@ -19,6 +19,7 @@ PYBIND11_MODULE(_trisect, m) {
     bind_measures(m);
     bind_transforms(m);
     bind_primitives(m);
+    bind_modelling(m);
     bind_files(m);
     bind_queries(m);
     bind_interference(m);

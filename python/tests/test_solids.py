@@ -158,6 +158,30 @@ def test_components_and_split():
     assert (below & above).is_empty
 
 
+def test_solids_made_of_solids():
+    cube = Solid.box((0, 0, 0), (1, 1, 1))
+    far = cube.translate((3, 0, 0))
+    assert cube.convex_hull(far).volume == 4
+    assert cube.minkowski_sum(cube).volume == 8
+    assert (cube | far).minkowski_sum(cube).volume == 16
+    assert cube.scale(3).minkowski_difference(cube).volume == 8
+    frame = Solid.box((0, 0, 0), (4, 4, 1)) - Solid.box((1, 1, -1), (3, 3, 2))
+    assert frame.project().volume == 12
+    assert frame.project(cut=0.5).volume == 12
+    assert frame.offset(0.5, corners="miter").volume == 25 - 1
+    with pytest.raises(trisect.UsageError, match="corners"):
+        frame.offset(1, corners="none")
+
+
+def test_programs_of_openscad(tmp_path):
+    assert Solid.from_csg("cube(size = 2); cube(size = [3, 1, 1]);").volume == 9
+    Solid.box((0, 0, 0), (1, 1, 1)).write(tmp_path / "a.off")
+    program = 'import(file = "a.off");'
+    assert Solid.from_csg(program, folder=str(tmp_path)).volume == 1
+    with pytest.raises(trisect.UnsupportedError):
+        Solid.from_csg(program)
+
+
 def test_embedding_of_a_mesh_that_meets_itself():
     # Two cubes that overlap, as one mesh.
     v, f = Solid.box((0, 0, 0), (2, 2, 2)).mesh()

@@ -6,7 +6,8 @@
 //     modelling_sets [--seed S] [--hulls N] [--sums M] [--only I]
 //
 // Prints a line for each difference, with the number that repeats it; exits with 1 if there was
-// any. The first N numbers are hulls of two solids, the next M sums and differences of two.
+// any. Each case with CGAL is a process of its own, of a minute at most. The first N numbers are
+// hulls of two solids, the next M sums and differences of two.
 
 #include <chrono>
 #include <cstdint>
@@ -16,6 +17,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/convex_hull_3.h>
@@ -49,9 +53,31 @@ struct Counts {
     std::uint64_t results = 0;
     std::uint64_t empty = 0;
     std::uint64_t different = 0;
+    std::uint64_t failed = 0;
     double ours = 0;
     double cgal = 0;
 };
+
+enum Status { Equal, Empty, Different, Failed };
+constexpr unsigned most_seconds = 60;
+
+// CGAL's overlays of Nef polyhedra crash now and then: that ends a child alone.
+template <class Work>
+int in_a_child(Work&& work) {
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+        alarm(most_seconds);
+        try {
+            _exit(work());
+        } catch (const std::exception&) {
+            _exit(Failed);
+        }
+    }
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) != child) return Failed;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(Failed);
+}
 
 template <class Work>
 auto timed(double& seconds, Work&& work) {
@@ -125,17 +151,22 @@ public:
 private:
     template <class Ours, class Theirs>
     void compare(std::uint64_t number, const char* what, Ours&& ours, Theirs&& theirs) {
-        const CanonicalBoundary expected = timed(counts_.cgal, theirs);
         ++counts_.results;
-        if (expected.empty()) ++counts_.empty;
-        std::string why;
-        try {
-            why = engines::difference(timed(counts_.ours, ours).to_brep(), expected);
-        } catch (const std::exception& e) {
-            why = e.what();
-        }
-        if (why.empty()) return;
-        ++counts_.different;
+        const trisect::Brep brep = timed(counts_.ours, ours).to_brep();
+        const int status = timed(counts_.cgal, [&] {
+            return in_a_child([&] {
+                const CanonicalBoundary expected = theirs();
+                const std::string why = engines::difference(brep, expected);
+                if (!why.empty()) print(number, what, why);
+                return why.empty() ? (expected.empty() ? Empty : Equal) : Different;
+            });
+        });
+        if (status == Empty) ++counts_.empty;
+        if (status == Different) ++counts_.different;
+        if (status == Failed) ++counts_.failed;
+    }
+
+    void print(std::uint64_t number, const char* what, const std::string& why) const {
         const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
         std::printf("DIFFERENT --seed %llu --hulls %llu --sums %llu --only %llu, %s: %s\n",
                     n(options_.seed), n(options_.hulls), n(options_.sums), n(number), what,
@@ -182,7 +213,9 @@ int main(int argc, char** argv) {
     const Counts& c = campaign.counts();
     const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
     std::printf(
-        "%llu results (seed %llu), %llu of them empty, %llu different; %.1f s, CGAL %.1f s\n",
-        n(c.results), n(options.seed), n(c.empty), n(c.different), c.ours, c.cgal);
+        "%llu results (seed %llu), %llu of them empty, %llu different, CGAL failed in %llu; %.1f "
+        "s, "
+        "CGAL %.1f s\n",
+        n(c.results), n(options.seed), n(c.empty), n(c.different), n(c.failed), c.ours, c.cgal);
     return c.different == 0 ? 0 : 1;
 }

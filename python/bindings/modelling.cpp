@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Solids made of solids: hulls, Minkowski sums, projections, offsets, and programs of OpenSCAD.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include <trisect/bsp/csg/csg_evaluate.h>
+#include <trisect/bsp/modelling/hull_of_solids.h>
+#include <trisect/bsp/modelling/minkowski.h>
+#include <trisect/bsp/modelling/offset.h>
+#include <trisect/bsp/modelling/projection.h>
+
+#include "bind.h"
+#include "run.h"
+#include "solids.h"
+
+namespace trisect::python {
+
+namespace {
+
+OffsetOptions::Corners corners_of(const std::string& word) {
+    if (word == "round") return OffsetOptions::Corners::Round;
+    if (word == "miter") return OffsetOptions::Corners::Miter;
+    if (word == "chamfer") return OffsetOptions::Corners::Chamfer;
+    throw UsageError("corners: must be 'round', 'miter' or 'chamfer', not '" + word + "'");
+}
+
+void bind_hulls(py::class_<Solid>& c) {
+    c.def(
+        "convex_hull",
+        [](const Solid& s, const py::args& others) {
+            std::vector<Solid> all{s};
+            for (const py::handle other : others) all.push_back(other.cast<const Solid&>());
+            return run([&] { return hull(all); });
+        },
+        R"(The convex hull of this solid and others together.
+
+Exact over corners that are doubles; others are rounded first, once.
+)");
+    c.def(
+        "minkowski_sum",
+        [](const Solid& a, const Solid& b) {
+            return run_on_threads([&](std::uint32_t threads) {
+                MinkowskiOptions options;
+                options.evaluate.threads = threads;
+                return minkowski_sum(a, b, options);
+            });
+        },
+        py::arg("other"), R"(All sums of a point of this solid and a point of another one.
+
+Of convex solids the hull of the sums of corners, else the union of many convex pieces. Exact where
+corners and their sums are doubles.
+)");
+    c.def(
+        "minkowski_difference",
+        [](const Solid& a, const Solid& b) {
+            return run_on_threads([&](std::uint32_t threads) {
+                MinkowskiOptions options;
+                options.evaluate.threads = threads;
+                return minkowski_difference(a, b, options);
+            });
+        },
+        py::arg("other"), "All points to which the other solid can be moved within this one.");
+}
+
+void bind_plane(py::class_<Solid>& c) {
+    c.def(
+        "project",
+        [](const Solid& s, std::optional<double> cut) {
+            return run_on_threads([&](std::uint32_t threads) {
+                EvaluateOptions options;
+                options.threads = threads;
+                return cut ? solid_of_region(section(s, *cut, options)) : shadow(s, options);
+            });
+        },
+        py::kw_only(), py::arg("cut") = py::none(),
+        R"(What the solid covers seen from above, as the prism over it between z = 0 and z = 1.
+
+Parameters
+----------
+cut : float or None
+    A height: the section there takes the place of the shadow.
+)");
+    c.def(
+        "offset",
+        [](const Solid& s, double distance, const std::string& corners, std::uint32_t segments) {
+            return run_on_threads([&](std::uint32_t threads) {
+                OffsetOptions options;
+                options.corners = corners_of(corners);
+                options.segments = segments;
+                options.evaluate.threads = threads;
+                return offset_of_region(s, distance, options);
+            });
+        },
+        py::arg("distance"), py::kw_only(), py::arg("corners") = "round", py::arg("segments") = 32,
+        R"(A region of the plane, as a prism between z = 0 and z = 1, grown, or shrunk by less than 0.
+
+Parameters
+----------
+distance : float
+corners : {'round', 'miter', 'chamfer'}
+segments : int
+    Of a whole circle.
+)");
+}
+
+void bind_programs(py::class_<Solid>& c) {
+    c.def_static(
+        "from_csg",
+        [](const std::string& text, const std::optional<std::string>& folder) {
+            return run_on_threads([&](std::uint32_t threads) {
+                CsgOptions options;
+                options.evaluate.threads = threads;
+                options.reads_files = folder.has_value();
+                if (folder) options.folder = *folder;
+                return evaluate_csg(parse_csg(text, "text"), options);
+            });
+        },
+        py::arg("text"), py::kw_only(), py::arg("folder") = py::none(),
+        R"(The solid of a program in OpenSCAD's evaluated form.
+
+Parameters
+----------
+text : str
+folder : str or None
+    Where names of files that the program reads start; without it such programs are refused.
+)");
+}
+
+}  // namespace
+
+void bind_modelling(py::module_& m) {
+    py::class_<Solid> c = solid_class(m);
+    bind_hulls(c);
+    bind_plane(c);
+    bind_programs(c);
+}
+
+}  // namespace trisect::python
