@@ -3,8 +3,8 @@
 // eval MODEL.csg -o OUT: the set that a program in OpenSCAD's evaluated form describes.
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/measure.h>
 #include <trisect/bsp/csg/csg_evaluate.h>
-#include <trisect/bsp/solid_measure.h>
 
 #include <fmt/format.h>
 
@@ -24,10 +24,11 @@ CsgTree read_program(const std::string& name) {
     return parse_csg(bytes.view(), name == "-" ? "standard input" : name);
 }
 
-void write_result(Session& session, const std::string& output, const Solid& solid) {
+void write_result(Session& session, const std::string& output, const Solid& solid,
+                  const ExactMesh& mesh) {
     if (has_exact_boundary(output))
         return session.write_output(output, exact_text(solid.to_brep()));
-    write_output_mesh(session, output, output_format(session, output), solid.to_mesh());
+    write_output_mesh(session, output, output_format(session, output), to_polygon_mesh(mesh));
 }
 
 std::string summary_of(const CsgReport& report, const Json& document) {
@@ -69,7 +70,9 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
     if (report.is_flat)
         session.note("the program describes a region of the plane: its prism of height 1");
     Outcome out;
-    session.interruptible_stage("measure", [&] {
+    // Assembled once: measures and the output take the same triangles.
+    const ExactMesh mesh = session.interruptible_stage("measure", [&] {
+        ExactMesh boundary = solid.to_exact_mesh();
         out.document["schema"] = "trisect.eval/1";
         out.document["input"] = options.input;
         out.document["output"] = options.output;
@@ -78,12 +81,12 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         out.document["different_shapes"] = report.meshes;
         out.document["formulas"] = report.evaluations;
         out.document["flat"] = report.is_flat;
-        out.document["triangles"] = counts(solid).triangles;
-        out.document["volume"] = volume(solid);
+        out.document["triangles"] = boundary.triangles.size();
+        out.document["volume"] = volume(boundary);
         out.document["remarks"] = report.remarks;
-        return 0;
+        return boundary;
     });
-    session.stage("write", [&] { write_result(session, options.output, solid); });
+    session.stage("write", [&] { write_result(session, options.output, solid, mesh); });
     out.document["seconds"] = session.seconds();
     if (options.summary) out.remarks = summary_of(report, out.document);
     return out;

@@ -198,6 +198,7 @@ Expression CsgEvaluator::region(std::uint32_t n, const CsgFrame& frame) {
 }
 
 Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
+    refuse_drawing(n);
     const CsgArguments in = program_.arguments(n);
     const double height = in.number("height", 100);
     if (!(height > 0)) {
@@ -212,7 +213,14 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
 }
 
 Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
+    refuse_drawing(n);
     return placed(n, csg_revolved(flat_children_of(n), program_.arguments(n)), frame.map);
+}
+
+/// Old programs name a drawing instead of children.
+void CsgEvaluator::refuse_drawing(std::uint32_t n) const {
+    const CsgArguments in = program_.arguments(n);
+    if (!csg_file(in, {}).empty()) in.fail(ErrorCode::Unsupported, "drawings are not read");
 }
 
 PlaneRegion CsgEvaluator::flat_children_of(std::uint32_t n) {

@@ -65,6 +65,7 @@ private:
     // What is made of children.
     [[nodiscard]] Expression linear(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression revolved(std::uint32_t n, const CsgFrame& frame);
+    void refuse_drawing(std::uint32_t n) const;
     [[nodiscard]] PlaneRegion flat_children_of(std::uint32_t n);
     [[nodiscard]] Expression hull(std::uint32_t n, const CsgFrame& frame);
 

@@ -21,9 +21,11 @@ namespace {
 
 using fuzz::ByteSource;
 
-constexpr std::string_view numbers[] = {
-    "1",   "0",  "2",  "3",   "-1",  "0.5", "0.1",   "5",    "10",    "-2",    "1.5",   "1e-9",
-    "1e9", "45", "90", "360", "inf", "nan", "1e308", "true", "false", "undef", "\"a\"", "0.7071"};
+constexpr std::string_view numbers[] = {"1", "0",  "2",  "3",  "-1", "0.5", "0.1",    "5",
+                                        "4", "-2", "10", "45", "90", "1.5", "0.7071", "7"};
+
+constexpr std::string_view odd_values[] = {"1e-9", "1e9",   "inf",   "nan",   "1e308", "-1e-300",
+                                           "true", "false", "undef", "\"a\"", "[]",    "360"};
 
 constexpr std::string_view groups[] = {
     "group()",    "union()",     "difference()",   "intersection()",
@@ -63,7 +65,9 @@ private:
     std::string_view one_of(const std::string_view (&words)[N]) {
         return words[source_.below(N)];
     }
-    std::string number() { return std::string(one_of(numbers)); }
+    std::string number() {
+        return std::string(source_.below(64) == 1 ? one_of(odd_values) : one_of(numbers));
+    }
     std::string list(unsigned count) {
         std::string out = "[";
         for (unsigned i = 0; i < count; ++i) out += (i == 0 ? "" : ",") + number();

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace trisect {
@@ -138,6 +140,68 @@ TEST(CsgEvaluate, HullsAndTurnedGroups) {
     EXPECT_EQ(report.evaluations, 2U);
 }
 
+TEST(CsgEvaluate, SumsOffsetsAndProjections) {
+    EXPECT_EQ(volume_of("minkowski() { cube(size = [1, 2, 3]); cube(size = 1); cube(size = 2); }"),
+              "120");
+    EXPECT_EQ(volume_of("linear_extrude(height = 2) minkowski() { square(size = 2);"
+                        "square(size = 1); }"),
+              "18");
+    EXPECT_EQ(
+        volume_of("minkowski() { cube(size = 2); intersection() { cube(size = 1);"
+                  "multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(size = 1); } }"),
+        "8");
+    EXPECT_EQ(volume_of("linear_extrude(height = 2) offset(delta = 1) square(size = 2);"), "32");
+    EXPECT_EQ(volume_of("linear_extrude(height = 2) offset(r = 1, $fn = 4) square(size = 2);"),
+              "28");
+    EXPECT_EQ(volume_of("projection(cut = true) cube(size = 4, center = true);"), "16");
+    EXPECT_EQ(volume_of("projection(cut = false) { cube(size = 2); cube(size = [1, 3, 9]); }"),
+              "5");
+}
+
+TEST(CsgEvaluate, ResizeFollowsTheLargestNewSize) {
+    const std::string box = "cube(size = [1, 2, 3], center = true);";
+    EXPECT_EQ(volume_of("resize(newsize = [5, 0, 0], auto = [false, false, false])" + box), "30");
+    EXPECT_EQ(volume_of("resize(newsize = [5, 0, 0], auto = true)" + box), "750");
+    EXPECT_EQ(volume_of("resize(newsize = [5, 12, 0], auto = [1, 1, 1])" + box), "1080");
+    EXPECT_EQ(volume_of("resize(newsize = [-5, 0, 0], auto = [1, 1, 1])" + box), "6");
+    EXPECT_EQ(volume_of("resize(newsize = [4, 0, 9], auto = [0, 0, 1]) square(size = 2);"), "8");
+}
+
+TEST(CsgEvaluate, AnIntersectionWithAnotherDimensionIsEmpty) {
+    EXPECT_EQ(volume_of("intersection() { cube(size = 5); circle(r = 2); }"), "0");
+}
+
+class CsgFiles : public testing::Test {
+protected:
+    std::string write(const std::string& name, const std::string& text) {
+        const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
+        std::ofstream(path) << text;
+        return path.string();
+    }
+};
+
+TEST_F(CsgFiles, HeightFieldsHaveAPointInTheMiddleOfEachCell) {
+    const std::string file = write("trisect_heights.dat", "# two rows\n1 2 3\n4 5 7\n");
+    EXPECT_EQ(volume_of("surface(file = \"" + file + "\", center = true);"), "29/4");
+    const std::string ragged = write("trisect_ragged.dat", "-1 2\n-3 5 6\n2 2\n");
+    EXPECT_EQ(volume_of("surface(file = \"" + ragged + "\");"), "99/4");
+    const std::string word = write("trisect_word.dat", "1 two\n");
+    EXPECT_THROW((void)volume_of("surface(file = \"" + word + "\");"), CsgError);
+}
+
+TEST_F(CsgFiles, MeshesAreImportedFromTheFolderOfTheProgram) {
+    const std::string file =
+        write("trisect_import.off",
+              "OFF\n4 4 0\n0 0 0\n6 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    CsgOptions options;
+    options.folder = testing::TempDir();
+    const CsgTree tree = parse_csg("import(file = \"trisect_import.off\");", "f");
+    EXPECT_EQ(exact_volume(evaluate_csg(tree, options)).to_string(), "1");
+    options.reads_files = false;
+    EXPECT_THROW((void)evaluate_csg(tree, options), CsgError);
+    EXPECT_EQ(volume_of("import(file = \"\");"), "0");
+}
+
 TEST(CsgEvaluate, EqualShapesAreMadeOnce) {
     CsgReport report;
     EXPECT_EQ(volume_of("cube(size = 1); group() { color([1, 0, 0]) cube(size = 1); }", &report),
@@ -158,6 +222,11 @@ int code_of(const std::string& text) {
 TEST(CsgEvaluate, Refusals) {
     EXPECT_EQ(code_of("text(text = \"a\");"), 7);
     EXPECT_EQ(code_of("whatever();"), 7);
+    EXPECT_EQ(code_of("linear_extrude(file = \"a.dxf\", height = 1);"), 7);
+    EXPECT_EQ(code_of("rotate_extrude(file = \"a.dxf\");"), 7);
+    EXPECT_EQ(code_of("import(file = \"a.svg\");"), 7);
+    EXPECT_EQ(code_of("surface(file = \"a.png\");"), 7);
+    EXPECT_EQ(code_of("surface(file = \"there/is/none.dat\");"), 3);
     EXPECT_EQ(code_of("cube(size = inf);"), 3);
     EXPECT_EQ(code_of("sphere(r = nan);"), 3);
     EXPECT_EQ(code_of("cube(size = [1, 2]);"), 3);
