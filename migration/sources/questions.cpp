@@ -84,9 +84,9 @@ std::vector<RayHit> Manifold::RayCast(vec3 origin, vec3 endpoint) const {
 double Manifold::MinGap(const Manifold& other, double searchLength) const {
     const trisect::Solid& a = node_->solid().solid;
     const trisect::Solid& b = other.node_->solid().solid;
-    const auto distance = trisect::boundary_distance(a, {}, b, {});
-    if (!distance) return searchLength;
-    const double gap = (distance->lower + distance->upper) / 2;
+    const auto squared = trisect::exact_squared_distance(a, {}, b, {});
+    if (!squared) return searchLength;
+    const double gap = std::sqrt(squared->to_double());
     if (gap == 0 || !trisect::evaluate(a & b).is_empty()) return 0;
     return std::min(gap, searchLength);
 }

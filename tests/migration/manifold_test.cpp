@@ -100,7 +100,7 @@ TEST(ManifoldInterface, Questions) {
     const Manifold pair = Manifold::Cube() + Manifold::Cube().Translate({0, 0, 3});
     const auto hits = pair.RayCast({0.5, 0.5, -1}, {0.5, 0.5, 5});
     ASSERT_EQ(hits.size(), 4U);
-    EXPECT_EQ(hits[2].position.z, 3);
+    EXPECT_DOUBLE_EQ(hits[2].position.z, 3);
     EXPECT_EQ(hits[2].normal.z, -1);
     EXPECT_EQ(pair.MinGap(Manifold::Cube().Translate({0, 0, 1.5}), 9), 0.5);
     EXPECT_EQ(pair.WindingNumber({vec3(0.5), {0.5, 0.5, 2}}), (std::vector<int>{1, 0}));

@@ -87,7 +87,7 @@ def main():
     parser.add_argument('--limit', type=float, default=120)
     parser.add_argument('--only', default='*')
     options = parser.parse_args()
-    programs = sorted((options.build / 'bin').glob(f'suite_{options.only}'))
+    programs = sorted((options.build.resolve() / 'bin').glob(f'suite_{options.only}'))
     if not programs:
         print('run.py: there is no suite in', options.build, file=sys.stderr)
         return 2
