@@ -52,9 +52,9 @@ void triangulate_faces(PreparedMesh& mesh);
 [[nodiscard]] std::vector<NetEdge> find_net_edges(std::size_t point_count,
                                                   std::span<const std::uint32_t> loop_begin,
                                                   std::span<const std::uint32_t> corners);
-/// How many there are of triangles alone. Where a degenerate face was dropped, through whose corners
-/// its neighbours matched, a corner of one of them lies inside an edge of another.
-[[nodiscard]] std::size_t count_net_edges(
-    std::size_t point_count, std::span<const std::array<std::uint32_t, 3>> triangles);
+/// How many there are of triangles alone. Where a degenerate face was dropped, through whose
+/// corners its neighbours matched, a corner of one of them lies inside an edge of another.
+[[nodiscard]] std::size_t count_net_edges(std::size_t point_count,
+                                          std::span<const std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace trisect::detail

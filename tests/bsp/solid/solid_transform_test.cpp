@@ -248,7 +248,7 @@ TEST(Components, OfRoundBodiesOffTheLattice) {
 // triangle between them is gone, and its corner lies inside the edge of the side.
 trisect::PolygonMesh box_with_needle(double near) {
     trisect::PolygonMesh mesh;
-    mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+    mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},     {0, 0, 1},
                    {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, near, 0}};
     mesh.add_triangle(0, 8, 1);
     mesh.add_triangle(0, 3, 8);
