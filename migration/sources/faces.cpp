@@ -232,7 +232,9 @@ ManifoldNode::Ptr renamed(const ManifoldNode& node) {
         TriMesh mesh = with_names(solid, brep, map);
         std::vector<std::uint32_t> group;
         for (const trisect::FaceId f : map.face) group.push_back(f.index);
-        return ManifoldNode::of_both(std::move(mesh), trisect::Solid::from_brep(brep),
+        // What a move rounded may meet itself.
+        return ManifoldNode::of_both(std::move(mesh),
+                                     trisect::Solid::from_brep(brep, trisect::Embedding::Check),
                                      std::move(group), node.original(), node.tolerance());
     } catch (const trisect::Error& error) {
         if (error.code() != trisect::ErrorCode::Unsupported) throw;
