@@ -94,9 +94,18 @@ set(private_headers
     brep/validate/twins.h
     bsp/manifold.h
     bsp/csg/csg_arguments.h
+    bsp/csg/csg_evaluator.h
     bsp/csg/csg_extrude.h
+    bsp/csg/csg_frame.h
+    bsp/csg/csg_import.h
+    bsp/csg/csg_key.h
+    bsp/csg/csg_kind.h
     bsp/csg/csg_lexer.h
+    bsp/csg/csg_program.h
+    bsp/csg/csg_region.h
     bsp/csg/csg_shapes.h
+    bsp/modelling/convex_pieces.h
+    bsp/modelling/sum_hull.h
     bsp/trisect.h
     kernel/plane_value.h
     kernel/triangle_pair.h
@@ -116,6 +125,7 @@ foreach(
         bsp
         bsp/csg
         bsp/interference
+        bsp/modelling
 )
     file(
         GLOB headers
