@@ -22,14 +22,14 @@ std::vector<std::uint32_t> CsgProgram::used(const std::vector<std::uint32_t>& no
 }
 
 /// Parents first.
-std::vector<std::uint32_t> CsgProgram::used_below(std::vector<std::uint32_t> todo) const {
+std::vector<std::uint32_t> CsgProgram::used_below(std::vector<std::uint32_t> pending) const {
     std::vector<std::uint32_t> out;
-    while (!todo.empty()) {
-        const std::uint32_t n = todo.back();
-        todo.pop_back();
+    while (!pending.empty()) {
+        const std::uint32_t n = pending.back();
+        pending.pop_back();
         if (!is_used(n)) continue;
         out.push_back(n);
-        todo.insert(todo.end(), node(n).children.rbegin(), node(n).children.rend());
+        pending.insert(pending.end(), node(n).children.rbegin(), node(n).children.rend());
     }
     return out;
 }

@@ -46,7 +46,7 @@ private:
     [[nodiscard]] bool is_used(std::uint32_t n) const {
         return !node(n).modifiers.disabled && !node(n).modifiers.background;
     }
-    [[nodiscard]] std::vector<std::uint32_t> used_below(std::vector<std::uint32_t> todo) const;
+    [[nodiscard]] std::vector<std::uint32_t> used_below(std::vector<std::uint32_t> pending) const;
     [[nodiscard]] std::vector<std::uint32_t> chosen_roots() const;
     [[nodiscard]] int dimension_of(const std::vector<std::uint32_t>& children) const;
     void refuse_unknown() const;

@@ -35,7 +35,8 @@ struct MinkowskiOptions {
                                   const MinkowskiOptions& options = {});
 
 /// All points to which `b` can be moved, by them as vectors, so that it is within `a`: what is left
-/// of `a` when its boundary is swept by `b` turned about the origin. Exact as minkowski_sum().
+/// of `a` when its boundary is swept by `b` turned about the origin. `a` itself where `b` is empty,
+/// since all of space is no solid that others could go on with. Exact as minkowski_sum().
 [[nodiscard]] Solid minkowski_difference(const Solid& a, const Solid& b,
                                          const MinkowskiOptions& options = {});
 

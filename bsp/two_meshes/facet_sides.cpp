@@ -19,6 +19,15 @@
 
 namespace trisect::detail {
 
+namespace {
+
+// A line looks at all facets of the other mesh: some milliseconds' worth of them, and a few lines
+// beside meshes of any size. With more parts the attempt ends.
+constexpr std::size_t facets_on_lines = std::size_t{1} << 22;
+constexpr std::size_t few_lines = 8;
+
+}  // namespace
+
 FacetSides::FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
                        const CubeSet& other, std::span<const std::uint32_t> near,
                        std::span<const EqualFacets::Fate> fates)
@@ -266,13 +275,13 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     facets = list_uncrossed(below);
     if (facets) return facets;
     const PointSide side_of(other, operand == 1, crossings.shift, outer_below);
-    return look_along_lines(side_of) ? list_uncrossed(below) : std::nullopt;
+    const std::size_t most = std::max(few_lines, facets_on_lines / other.triangles.size());
+    return look_along_lines(side_of, most) ? list_uncrossed(below) : std::nullopt;
 }
 
 // Of what nothing else gives the side, from one point of each part that hangs together.
-bool FacetSides::look_along_lines(const PointSide& side_of) {
-    constexpr int most = 256;
-    int lines = 0;
+bool FacetSides::look_along_lines(const PointSide& side_of, std::size_t most) {
+    std::size_t lines = 0;
     const auto look_at = [&](std::uint32_t facet) {
         const std::uint32_t point = mesh_.triangles[facet][0];
         const std::uint32_t node = node_of(point);

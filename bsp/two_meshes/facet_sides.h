@@ -66,7 +66,7 @@ private:
     [[nodiscard]] bool look_at_pierced_edges(const Crossings& crossings, std::size_t operand);
     [[nodiscard]] bool look_at_often_pierced_edges(const Crossings& crossings, std::size_t operand,
                                                    const LatticeMesh& other);
-    [[nodiscard]] bool look_along_lines(const PointSide& side_of);
+    [[nodiscard]] bool look_along_lines(const PointSide& side_of, std::size_t most);
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> list_uncrossed(bool below);
 
     const CubeGrid& grid_;

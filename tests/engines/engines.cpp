@@ -209,6 +209,14 @@ trisect::PolygonMesh boundary_mesh(const trisect::Solid& solid) {
     return trisect::detail::assemble_mesh(*trisect::detail::state_of(solid), nullptr, true, 0);
 }
 
+// A limit of work is counted by cells.
+trisect::Solid evaluate_by_cells(const trisect::Expression& expression,
+                                 const trisect::EvaluateOptions& options,
+                                 trisect::test::EvaluateStats* stats) {
+    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});
+    return trisect::test::evaluate(expression, options, stats);
+}
+
 std::optional<std::string> undivided_difference(const trisect::Expression& expression,
                                                 const trisect::EvaluateOptions& options) {
     using namespace trisect::detail;
@@ -227,11 +235,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
                                     whole ? SplittingOffset::of_thread() : usual_splitting_offset};
     const auto state = evaluate_by(undivided, t.formula, states, settings, stats);
     if (state == nullptr) return std::nullopt;
-    const auto evaluated_by_cells = [&] {
-        const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});  // counted by cells
-        return trisect::evaluate(expression, options);
-    };
-    const trisect::Solid cells = evaluated_by_cells();
+    const trisect::Solid cells = evaluate_by_cells(expression, options);
     const auto expected = mesh_of(*trisect::detail::state_of(cells));
     const auto mesh = mesh_of(*state);
     const auto& found = *std::get<UndividedMeshes>(state->form).crossings;

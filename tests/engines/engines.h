@@ -10,6 +10,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
+#include "evaluate_stats.h"
 #include "reference/naive_boolean.h"
 #include "reference/random_solids.h"
 
@@ -42,6 +43,11 @@ trisect::PolygonMesh boundary_mesh(const trisect::Solid& solid);
 
 /// Why the triangles of a result do not close, corner index by corner index; empty when they do.
 std::string open_edge(const trisect::PolygonMesh& mesh);
+
+/// The formula by a tree of cells, whatever else the library has for it.
+[[nodiscard]] trisect::Solid evaluate_by_cells(const trisect::Expression& expression,
+                                               const trisect::EvaluateOptions& options = {},
+                                               trisect::test::EvaluateStats* stats = nullptr);
 
 /// What is different where two meshes are evaluated without being divided
 /// (two_meshes_without_tree.h), empty when the mesh is the same corner by corner; nothing where

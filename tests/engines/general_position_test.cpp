@@ -159,7 +159,7 @@ TEST(GeneralPosition, TracedOutlinesAreThoseOfThePieces) {
         options.leaf_polygons = seed % 3 == 0 ? 3 : (seed % 3 == 1 ? 10 : 100);
         const trisect::Expression expression =
             seed % 2 == 0 ? ~(terms[0] | terms[1]) : terms[0] - terms[1];
-        const trisect::Solid result = trisect::evaluate(expression, options);
+        const trisect::Solid result = engines::evaluate_by_cells(expression, options);
         trisect::detail::SolidState without = *trisect::detail::state_of(result);
         std::get<trisect::detail::CellTree>(without.form).crossings.reset();
         trisect::detail::AssemblyStats stats;

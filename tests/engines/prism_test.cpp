@@ -82,13 +82,17 @@ void expect_agreement(const std::vector<Operand>& operands, const reference::Exp
                       const Bits& bits = {}) {
     const std::vector<trisect::Solid> solids = solids_of(operands, bits);
     trisect::test::EvaluateStats stats;
-    const trisect::Solid result = evaluate(engines::formula(expression, solids), options, &stats);
+    const trisect::Expression formula = engines::formula(expression, solids);
+    const trisect::Solid by_cells = engines::evaluate_by_cells(formula, options, &stats);
     leaves.prisms += stats.prism_leaves;
     leaves.mixed += stats.mixed_leaves;
-    EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
-    const auto expected = reference::evaluate(operands, expression);
-    EXPECT_EQ(engines::difference(result.to_brep(), reference::canonical_boundary(expected.cells)),
-              "");
+    const auto expected =
+        reference::canonical_boundary(reference::evaluate(operands, expression).cells);
+    // Pairs have a way of their own.
+    for (const trisect::Solid& result : {by_cells, trisect::evaluate(formula, options)}) {
+        EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "");
+        EXPECT_EQ(engines::difference(result.to_brep(), expected), "");
+    }
 }
 
 struct Volume {

@@ -10,26 +10,19 @@
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/cells/lazy_tree.h>
-#include <trisect/kernel/stop_scope.h>
 
 #include "engines.h"
 
 namespace undivided_test {
 namespace {
 
+using engines::evaluate_by_cells;
 using reference::Operand;
 
 struct Count {
     int tried = 0;
     int undivided = 0;
 };
-
-// A limit of work is counted by cells.
-trisect::Solid evaluate_by_cells(const trisect::Expression& expression,
-                                 const trisect::EvaluateOptions& options = {}) {
-    const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});
-    return trisect::evaluate(expression, options);
-}
 
 void expect_same_as_divided(const trisect::Expression& expression, std::uint32_t leaf_polygons,
                             Count& count) {

@@ -129,9 +129,9 @@ class Page {
     byId('distance').textContent = '';
     if (this.picked.length < 2) return;
     const found = measure(this.model, ...this.picked);
-    if (!found) return;
-    byId('distance').textContent =
-      `distance ${found.distance}, its square ${found.square}`;
+    byId('distance').textContent = found
+      ? `distance ${found.distance}, its square ${found.rounded ? '~' : ''}${found.square}`
+      : 'faces of too many triangles to be measured here';
   }
 
   operandName(face) {
@@ -148,8 +148,9 @@ class Page {
   describe(item) {
     const m = this.model;
     if (item.kind === 'vertex') {
+      const rounded = m.precision(item.number) === 'rounded' ? '~' : '';
       const p = m.exactPoint(item.number).map(String);
-      return `vertex ${item.number}\n(${p.join(', ')})\nfaces ${m.facesAt(item.number).join(', ')}`;
+      return `vertex ${item.number}\n${rounded}(${p.join(', ')})\nfaces ${m.facesAt(item.number).join(', ')}`;
     }
     if (item.kind === 'edge') {
       const [a, b] = [m.edges[2 * item.number], m.edges[2 * item.number + 1]];
@@ -208,6 +209,7 @@ function driver(page) {
         vertices: vertices.map((v) => ({
           number: v % page.model.vertexCount,
           rounded: page.model.point(v % page.model.vertexCount),
+          precision: page.model.precision(v % page.model.vertexCount),
           exact: this.exactPoint(v % page.model.vertexCount),
         })),
       };

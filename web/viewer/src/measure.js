@@ -80,12 +80,19 @@ function squaredDistance(p, q, field) {
   return { square: product(apart, apart), inside };
 }
 
-// Two triangles that cross have distance 0 as well: an edge of one goes through the other.
+/** The pairs of triangles that a measurement looks at, at most. */
+const mostPairs = 1e6;
+
+/**
+ * The distance of two entities and its exact square, `rounded` where a vertex that it follows from
+ * is; nothing for faces of so many triangles that it would take long. Entities of one boundary do
+ * not cross, so corners and edges are enough.
+ */
 export function measure(model, first, second) {
   let best = null;
-  const limit = 4000;
-  const a = partsOf(model, first).slice(0, limit);
-  const b = partsOf(model, second).slice(0, limit);
+  const a = partsOf(model, first);
+  const b = partsOf(model, second);
+  if (a.length * b.length > mostPairs) return null;
   for (const x of a)
     for (const y of b)
       for (const f of flatsOf(x))
@@ -100,5 +107,6 @@ export function measure(model, first, second) {
   const exact = (v) => model.exactPoint(v);
   const found = squaredDistance(best.flats[0].map(exact), best.flats[1].map(exact), fractions);
   const square = found.square;
-  return { square, distance: Math.sqrt(square.toNumber()) };
+  const rounded = best.flats.flat().some((v) => model.precision(v) === 'rounded');
+  return { square, distance: Math.sqrt(square.toNumber()), rounded };
 }

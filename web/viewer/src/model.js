@@ -197,18 +197,28 @@ export class Model {
     return n.map((x) => x / length);
   }
 
-  /** The exact coordinates of a vertex: its doubles, or the common point of three of its planes. */
-  exactPoint(v) {
-    if (this.isExact[v]) return vector.of(this.point(v));
+  /** The common point of three of a vertex's planes; null where all pass through one line. */
+  pointOfPlanes(v) {
     let out = this.exactPoints.get(v);
-    if (out) return out;
+    if (out !== undefined) return out;
+    out = null;
     const planes = this.facesAt(v).map((f) => this.plane(f));
     for (let i = 0; i < planes.length && !out; ++i)
       for (let j = 0; j < i && !out; ++j)
         for (let k = 0; k < j && !out; ++k) out = common(planes[i], planes[j], planes[k]);
-    if (!out) out = vector.of(this.point(v)); // on a straight edge: rounded
     this.exactPoints.set(v, out);
     return out;
+  }
+
+  /** How the coordinates of a vertex are given: by doubles, by planes, or rounded only. */
+  precision(v) {
+    if (this.isExact[v]) return 'doubles';
+    return this.pointOfPlanes(v) ? 'planes' : 'rounded';
+  }
+
+  /** The exact coordinates of a vertex, unless its precision is 'rounded'. */
+  exactPoint(v) {
+    return (!this.isExact[v] && this.pointOfPlanes(v)) || vector.of(this.point(v));
   }
 
   /** -1, 0, 1: where a vertex is beside a number along an axis. */
