@@ -558,7 +558,8 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
         out.is_as_wished = out.is_as_wished && found.is_as_wished;
     });
     std::ranges::sort(out.sides);
-    out.sides.erase(std::ranges::unique(out.sides).begin(), out.sides.end());
+    // Not std::ranges::unique: clang 14 refuses g++ 12's subrange.
+    out.sides.erase(std::unique(out.sides.begin(), out.sides.end()), out.sides.end());
     return out;
 }
 
