@@ -142,6 +142,7 @@ std::shared_ptr<const Source> Source::renamed_as_this(std::shared_ptr<const Sour
     auto& made = const_cast<Source&>(*source);
     made.operand_ = operand_;
     made.names_ = names_;
+    made.kinds_ = kinds_;
     made.axes_ = axes_;
     return source;
 }
@@ -150,6 +151,13 @@ std::shared_ptr<const Source> Source::named(std::shared_ptr<const Source> source
                                             std::vector<FaceSource> names) {
     auto& made = const_cast<Source&>(*source);
     made.names_ = std::make_shared<const std::vector<FaceSource>>(std::move(names));
+    return source;
+}
+
+std::shared_ptr<const Source> Source::of_kinds(std::shared_ptr<const Source> source,
+                                               std::vector<FacetKind> kinds) {
+    auto& made = const_cast<Source&>(*source);
+    made.kinds_ = std::make_shared<const std::vector<FacetKind>>(std::move(kinds));
     return source;
 }
 

@@ -15,6 +15,7 @@
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/lattice_mesh.h>
+#include <trisect/brep/validate/facet_kinds.h>
 #include <trisect/bsp/cells/cell.h>
 #include <trisect/bsp/cells/lattice_move.h>
 #include <trisect/kernel/plane.h>
@@ -72,6 +73,10 @@ public:
     [[nodiscard]] std::uint32_t face_of(std::uint32_t facet) const {
         return is_half_space() ? facet : mesh_.face_of(facet);
     }
+    /// Of a mesh that meets itself in places; empty where nothing is known about that.
+    [[nodiscard]] std::span<const FacetKind> kinds() const {
+        return kinds_ == nullptr ? std::span<const FacetKind>() : *kinds_;
+    }
     [[nodiscard]] const LatticePoint& corner(std::uint32_t facet, int i) const {
         return mesh_.points[mesh_.triangles[facet][static_cast<std::size_t>(i)]];
     }
@@ -117,6 +122,9 @@ public:
     /// the source is new
     static std::shared_ptr<const Source> named(std::shared_ptr<const Source> source,
                                                std::vector<FaceSource> names);
+    /// A mesh whose facets have these kinds. \pre one for each facet, and the source is new
+    static std::shared_ptr<const Source> of_kinds(std::shared_ptr<const Source> source,
+                                                  std::vector<FacetKind> kinds);
 
 private:
     Source() = default;
@@ -137,6 +145,7 @@ private:
     std::uint64_t serial_ = 0;
     std::uint32_t operand_ = 0;
     std::shared_ptr<const std::vector<FaceSource>> names_;  // by face; null: its own
+    std::shared_ptr<const std::vector<FacetKind>> kinds_;   // by facet; may be null
     /// Where components of a normal are equal, the first of these axes counts as the largest one.
     std::array<std::uint8_t, 3> axes_{0, 1, 2};
     mutable std::atomic<std::uint32_t> count_{0};

@@ -38,6 +38,7 @@
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/divide/choose_splitting_plane.h>
+#include <trisect/bsp/divide/embedded_part.h>
 #include <trisect/bsp/divide/operand_lists.h>
 #include <trisect/bsp/divide/partition.h>
 #include <trisect/bsp/divide/reference_points.h>
@@ -604,6 +605,8 @@ CellRef Worker::solve(CellTask& task) {
     check_budget(options_, stats);
     shared_.failure.check();
     stats.depth = std::max(stats.depth, task.depth);
+    if (options_.winding == EvaluateOptions::Winding::Positive)
+        for (CellOperand& o : task.operands) take_as_embedded(o, arena_);
     prune(task);
     CellView view{task, options_, values_, collects(task)};
     if (auto cell = first_of(constant_rules(), view, task)) return *std::move(cell);

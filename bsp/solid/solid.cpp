@@ -12,6 +12,7 @@
 
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
+#include <trisect/brep/validate/facet_kinds.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/assembly/outline_names.h>
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -113,8 +114,11 @@ Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threa
     if (mesh.triangles.empty()) return {};
     const bool embedded =
         embedding == Embedding::Assume || (embedding == Embedding::Check && is_embedded(mesh));
+    std::optional<std::vector<detail::FacetKind>> kinds;
+    if (!embedded) kinds = detail::facet_kinds(mesh);
     const Lattice lattice = mesh.lattice;
-    const auto source = detail::Source::make(std::move(mesh), threads);
+    auto source = detail::Source::make(std::move(mesh), threads);
+    if (kinds) source = detail::Source::of_kinds(std::move(source), *std::move(kinds));
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
     state->form = tree_of(detail::uncut_root(*source, t_edges));

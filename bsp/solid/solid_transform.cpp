@@ -19,6 +19,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/validate/embedding.h>
+#include <trisect/brep/validate/facet_kinds.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
@@ -282,8 +283,10 @@ StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
     auto state = std::make_shared<SolidState>();
     state->lattice = mesh.lattice;
     state->embedded = is_embedded(mesh);
-    const auto source =
-        detail::Source::named(detail::Source::make(std::move(mesh)), std::move(names));
+    std::optional<std::vector<detail::FacetKind>> kinds;
+    if (!state->embedded) kinds = detail::facet_kinds(mesh);
+    auto source = detail::Source::named(detail::Source::make(std::move(mesh)), std::move(names));
+    if (kinds) source = detail::Source::of_kinds(std::move(source), *std::move(kinds));
     state->form =
         detail::CellTree{{detail::uncut_root(*source, t_edges), is_complement}, {}, nullptr};
     state->whole = source->is_whole();

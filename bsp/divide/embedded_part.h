@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part in a cell of a mesh that meets itself in other places.
+#pragma once
+
+#include <trisect/bsp/divide/cell_task.h>
+#include <trisect/kernel/support/stack_arena.h>
+
+namespace trisect::detail {
+
+/// Makes an operand an embedded one where none of its facets in the cell meets others: facets that
+/// do not bound the set leave the list. Does nothing where kinds are not known (facet_kinds.h).
+/// \pre inside is a positive winding number
+void take_as_embedded(CellOperand& operand, StackArena& arena);
+
+}  // namespace trisect::detail
