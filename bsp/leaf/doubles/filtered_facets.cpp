@@ -110,7 +110,7 @@ void FilteredFacets::set_origin(const Vector3& origin) {
 }
 
 void FilteredFacets::set_bounds() {
-    const Cell& cell = problem_->cell;
+    const Cell& cell = problem_.cell;
     reference_.error = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto from_origin = [&](std::int64_t fine) {
@@ -118,7 +118,7 @@ void FilteredFacets::set_bounds() {
         };
         splitter_lo_[k] = from_origin(cell.lo[k]);
         splitter_hi_[k] = from_origin(cell.hi[k]);
-        reference_.c[k] = from_origin(problem_->reference.c[k]);
+        reference_.c[k] = from_origin(problem_.reference.c[k]);
         reference_.error = std::max(reference_.error, std::fabs(reference_.c[k]) * last_place);
         const auto inner = [&](std::int64_t c) {
             return std::clamp(static_cast<double>(c - whole_origin_[k]), -exact_limit, exact_limit);
@@ -133,7 +133,7 @@ void FilteredFacets::set_bounds() {
 // A position from the whole origin is rounded once, by 2^-53 of itself, and once more with the rest
 // of the origin, which is below 1: what comes out is off by less than 2^-52 of itself and 2^-52.
 void FilteredFacets::set_bounds_with_fractions() {
-    const Cell& cell = problem_->cell;
+    const Cell& cell = problem_.cell;
     reference_.error = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double rest = origin_[k] - static_cast<double>(whole_origin_[k]);
@@ -143,7 +143,7 @@ void FilteredFacets::set_bounds_with_fractions() {
         const auto error = [&](double at) { return std::fabs(at) * last_place + splitter_error(); };
         splitter_lo_[k] = from_origin(cell.lo[k]);
         splitter_hi_[k] = from_origin(cell.hi[k]);
-        reference_.c[k] = from_origin(problem_->reference.c[k]);
+        reference_.c[k] = from_origin(problem_.reference.c[k]);
         reference_.error = std::max(reference_.error, 2 * error(reference_.c[k]));
         inner_lo_[k] = splitter_lo_[k] + 2 * error(splitter_lo_[k]);
         inner_hi_[k] = splitter_hi_[k] - 2 * error(splitter_hi_[k]);
@@ -157,7 +157,7 @@ Vector3 FilteredFacets::origin_of_fractions() const {
     Vector3 low{infinity, infinity, infinity};
     Vector3 high{-infinity, -infinity, -infinity};
     Vector3 least{infinity, infinity, infinity};
-    for (const LeafOperand& o : problem_->operands)
+    for (const LeafOperand& o : problem_.operands)
         for (const PolygonRef& r : o.polygons)
             for (int i = 0; i < 3 && !r.source->is_half_space(); ++i) {
                 const Vector3 c = r.source->corner(r.facet, i).doubles();
@@ -193,7 +193,7 @@ Box FilteredFacets::positions(const Vector3& lo, const Vector3& hi) const {
 }
 
 bool FilteredFacets::list(const LeafProblem& leaf) {
-    problem_ = &leaf;
+    problem_ = leaf;
     facets_.clear();
     outlines_.clear();
     fragments_ = 0;
@@ -331,14 +331,14 @@ void FilteredFacets::add_half_space(FilteredFacet& f) {
 // The planes of half-spaces in the cell, while nothing else is listed.
 void FilteredFacets::make_pieces() {
     Box meshes;
-    for (const LeafOperand& o : problem_->operands)
+    for (const LeafOperand& o : problem_.operands)
         for (const PolygonRef& r : o.polygons)
             if (!r.source->is_half_space())
-                meshes.add(r.box().intersected(problem_->cell.lattice_box()));
+                meshes.add(r.box().intersected(problem_.cell.lattice_box()));
     if (bench_ == nullptr) bench_ = std::make_unique<Workbench>();
     bench_->clear();
-    for (std::size_t o = 0; o < problem_->operands.size(); ++o)
-        for (const PolygonRef& r : problem_->operands[o].polygons)
+    for (std::size_t o = 0; o < problem_.operands.size(); ++o)
+        for (const PolygonRef& r : problem_.operands[o].polygons)
             if (r.source->is_half_space() && r.fragment == nullptr) add_pieces(r, o, meshes);
     std::vector<PolygonRef> refs;
     refs.reserve(pieces_.size());
@@ -349,7 +349,7 @@ void FilteredFacets::make_pieces() {
 // What is far beyond the meshes is cut off, side by side: the corners of a piece in a cell that is
 // as large as space would be of no use for the facets here.
 void FilteredFacets::add_pieces(const PolygonRef& ref, std::size_t operand, const Box& meshes) {
-    const Cell& cell = problem_->cell;
+    const Cell& cell = problem_.cell;
     const auto add = [&](const WorkPolygon& part) {
         if (!part.is_empty()) pieces_.push_back({operand, make_fragment(*bench_, ref, part)});
     };
@@ -364,7 +364,7 @@ void FilteredFacets::add_pieces(const PolygonRef& ref, std::size_t operand, cons
             const std::int64_t wall = high ? lattice_below(cell.hi[k]) : lattice_below(cell.lo[k]);
             if (std::abs(wall - end) / far_beyond <= extent) continue;
             const std::int64_t at = (high ? end + extent : end - extent) * splitting_scale +
-                                    problem_->options->splitting_offset;
+                                    problem_.options->splitting_offset;
             const PlaneId splitter = bench_->plane(PlaneName::splitter(axis, at));
             add(bench_->clipped(rest, splitter, high ? 1 : -1));
             rest = bench_->clipped(std::move(rest), splitter, high ? -1 : 1);
@@ -459,7 +459,7 @@ void FilteredFacets::add_outline(FilteredFacet& f) {
 // plane it is on one side of that. Where that is the other side of a bounding plane, only its box,
 // rounded to positions of the lattice, meets the cell.
 void FilteredFacets::find_splitters(FilteredFacet& f) const {
-    const Cell& cell = problem_->cell;
+    const Cell& cell = problem_.cell;
     unsigned splitters = 0;
     for (const EdgeName& e : f.ref.fragment->edges()) {
         if (!e.plane.is_splitter()) continue;

@@ -153,8 +153,8 @@ public:
     [[nodiscard]] bool is_whole() const { return whole_; }
     /// How many fragments are listed.
     [[nodiscard]] std::size_t fragment_count() const { return fragments_; }
-    [[nodiscard]] const LeafProblem& problem() const { return *problem_; }
-    [[nodiscard]] std::size_t operand_count() const { return problem_->operands.size(); }
+    [[nodiscard]] const LeafProblem& problem() const { return problem_; }
+    [[nodiscard]] std::size_t operand_count() const { return problem_.operands.size(); }
     /// The first item of an operand, whose items follow each other; of the number of operands: the
     /// number of items.
     [[nodiscard]] LeafIndex first_of(std::size_t operand) const { return firsts_[operand]; }
@@ -221,7 +221,7 @@ private:
                                                       const Vector3& hi) const;
     void find_splitters(FilteredFacet& f) const;
 
-    const LeafProblem* problem_ = nullptr;
+    LeafProblem problem_;
     // Of a half-space in the cell.
     struct Piece {
         std::size_t operand = 0;
