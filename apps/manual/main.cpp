@@ -2,11 +2,8 @@
 //
 // write_manual FOLDER: manual pages and completion of the command, from its table of options, to
 // man1/, bash/, zsh/ and fish/ in FOLDER.
-#ifdef TRISECT_WITH_COMPARISON
-#include "trisect/compare_hierarchies_command.h"
-#else
+#include "program_commands.h"
 #include "trisect/command_line.h"
-#endif
 
 #include <filesystem>
 #include <fstream>
@@ -20,14 +17,6 @@
 namespace trisect::app {
 namespace {
 
-CommandTable table_of_program() {
-#ifdef TRISECT_WITH_COMPARISON
-    return table_with_comparison();
-#else
-    return command_table();
-#endif
-}
-
 void write(const std::filesystem::path& path, const std::string& text) {
     std::filesystem::create_directories(path.parent_path());
     std::ofstream file(path, std::ios::binary);
@@ -37,7 +26,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 }
 
 void write_all(const std::filesystem::path& folder) {
-    const CommandTable table = table_of_program();
+    const CommandTable table = command_table(program_commands());
     write(folder / "man1/trisect.1", program_page(table));
     for (const CommandEntry& command : table.commands)
         write(folder / "man1" / ("trisect-" + command.name + ".1"), command_page(table, command));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <csignal>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,38 +16,17 @@
 #include <unistd.h>
 
 #include "choice.h"
-#include "commands.h"
 #include "failure.h"
-#include "further_command.h"
 #include "limits.h"
+#include "outcome.h"
+#include "session.h"
 #include "values.h"
 
 namespace trisect::app {
 namespace {
 
-/// Everything the arguments can say.
-struct Request {
-    CommonOptions common;
-    BooleanOptions boolean;
-    InfoOptions info;
-    CheckOptions check;
-    DiffOptions diff;
-    VerifyCommandOptions verify;
-    CorpusOptions corpus;
-    ConvertOptions convert;
-    TessellateOptions tessellate;
-    EvalOptions eval;
-    LocateOptions locate;
-    SweepOptions sweep;
-    SectionOptions section;
-    ViewOptions view;
-    RenderOptions render;
-    TreeOptions tree;
-    InterfereOptions interfere;
-    MillOptions mill;
-    FurtherCommand* further = nullptr;
-    std::string further_name;
-};
+/// Which sub-command has a name that the user may type.
+using NamedCommands = std::map<std::string, const SubCommand*>;
 
 constexpr const char* what_it_is =
     "Exact solid modelling: booleans, measures and checks of polygon meshes.";
@@ -160,58 +140,28 @@ void refuse_options_as_values(CLI::App& app) {
             option->check(refuse_option, "");
 }
 
-void declare(CLI::App& app, Request& request) {
+/// Adds a sub-command, and what names it has.
+void declare(CLI::App& app, SubCommand& command, NamedCommands& named) {
+    const std::size_t before = app.get_subcommands({}).size();
+    command.declare(app);
+    const std::vector<CLI::App*> all = app.get_subcommands({});
+    for (std::size_t i = before; i < all.size(); ++i) named[all[i]->get_name()] = &command;
+}
+
+NamedCommands declare(CLI::App& app, CommonOptions& common, const SubCommands& commands) {
     app.set_version_flag("--version", "trisect " TRISECT_VERSION);
     app.require_subcommand(1);
     app.footer(exit_code_help);
     app.fallthrough();  // common options may stand after the sub-command too
-    add_common_options(app, request.common);
-    add_boolean_commands(app, request.boolean);
-    add_info_command(app, request.info);
-    add_check_command(app, request.check);
-    add_diff_command(app, request.diff);
-    add_verify_command(app, request.verify);
-    add_corpus_command(app, request.corpus);
-    add_convert_command(app, request.convert);
-    add_tessellate_command(app, request.tessellate);
-    add_eval_command(app, request.eval);
-    add_locate_command(app, request.locate);
-    add_sweep_command(app, request.sweep);
-    add_section_command(app, request.section);
-    add_view_command(app, request.view);
-    add_render_command(app, request.render);
-    add_tree_command(app, request.tree);
-    add_interfere_command(app, request.interfere);
-    add_mill_command(app, request.mill);
-    if (request.further != nullptr) request.further_name = request.further->declare(app).get_name();
+    add_common_options(app, common);
+    NamedCommands named;
+    for (const auto& command : commands) declare(app, *command, named);
     for (CLI::App* command : app.get_subcommands({})) {
         command->footer("Common options: trisect --help");
         refuse_options_as_values(*command);
     }
     refuse_options_as_values(app);
-}
-
-Outcome run_command(Session& session, const std::string& name, const Request& request) {
-    if (name == "info") return run_info(session, request.info);
-    if (name == "check") return run_check(session, request.check);
-    if (name == "diff") return run_diff(session, request.diff);
-    if (name == "verify") return run_verify(session, request.verify);
-    if (name == "corpus") return run_corpus(session, request.corpus);
-    if (name == "convert") return run_convert(session, request.convert);
-    if (name == "tessellate") return run_tessellate(session, request.tessellate);
-    if (name == "eval") return run_eval(session, request.eval);
-    if (name == "locate") return run_locate(session, request.locate);
-    if (name == "sweep") return run_sweep(session, request.sweep);
-    if (name == "section") return run_section(session, request.section);
-    if (name == "view") return run_view(session, request.view);
-    if (name == "render") return run_render(session, request.render);
-    if (name == "tree") return run_tree(session, request.tree);
-    if (name == "interfere") return run_interfere(session, request.interfere);
-    if (name == "mill") return run_mill(session, request.mill);
-    if (name == request.further_name) return request.further->run(session);
-    BooleanOptions options = request.boolean;
-    options.operation = name;
-    return run_boolean(session, options);
+    return named;
 }
 
 /// The arguments, in the reverse order that CLI11 wants. A value that begins with a minus sign
@@ -267,16 +217,17 @@ Failure failure_of(Supervisor& supervisor) {
 }
 
 /// Runs the sub-command under the limits; in the end whoever claims it first speaks.
-int run_request(Console& console, const std::string& name, const Request& request) {
-    const bool json = request.common.json;
-    console.set_quiet(request.common.quiet);
-    Supervisor supervisor(console, request.common, leave);
+int run_command(Console& console, const CommonOptions& common, const SubCommand& command,
+                const std::string& name) {
+    const bool json = common.json;
+    console.set_quiet(common.quiet);
+    Supervisor supervisor(console, common, leave);
     Outcome outcome;
     try {
-        const Limits limits(request.common);
-        Session session(request.common, console, supervisor);
+        const Limits limits(common);
+        Session session(common, console, supervisor);
         const StopScope scope(session.limits());
-        outcome = run_command(session, name, request);
+        outcome = command.run(session, name);
     } catch (...) {
         const Failure failure = failure_of(supervisor);
         if (!console.claim_end()) wait_for_end();
@@ -290,11 +241,11 @@ int run_request(Console& console, const std::string& name, const Request& reques
 }
 
 /// Parses, answers --help and --version, or runs.
-int parse_and_run(Console& console, bool json, int argc, char** argv, FurtherCommand* further) {
+int parse_and_run(Console& console, bool json, int argc, char** argv,
+                  const SubCommands& commands) {
     CLI::App app(what_it_is, "trisect");
-    Request request;
-    request.further = further;
-    declare(app, request);
+    CommonOptions common;
+    const NamedCommands named = declare(app, common, commands);
     try {
         app.parse(prepared_arguments(argc, argv));
     } catch (const CLI::CallForHelp&) {
@@ -304,18 +255,19 @@ int parse_and_run(Console& console, bool json, int argc, char** argv, FurtherCom
     } catch (const CLI::ParseError& e) {
         throw UsageError(std::string(e.what()) + " (see trisect --help)");
     }
-    return run_request(console, app.get_subcommands().front()->get_name(), request);
+    const std::string name = app.get_subcommands().front()->get_name();
+    return run_command(console, common, *named.at(name), name);
 }
 
 }  // namespace
 
-int run(int argc, char** argv, FurtherCommand* further) {
+int run(int argc, char** argv, const SubCommands& commands) {
     std::signal(SIGPIPE, SIG_IGN);
     Console console;
     const bool json = asks_for_json(argc, argv);
     install_terminate_handler(console, json);
     try {
-        return parse_and_run(console, json, argc, argv, further);
+        return parse_and_run(console, json, argc, argv, commands);
     } catch (...) {
         const Failure failure = current_failure();
         report_failure(console, json, failure);
@@ -323,11 +275,10 @@ int run(int argc, char** argv, FurtherCommand* further) {
     }
 }
 
-CommandTable command_table(FurtherCommand* further) {
+CommandTable command_table(const SubCommands& commands) {
     CLI::App app(what_it_is, "trisect");
-    Request request;
-    request.further = further;
-    declare(app, request);
+    CommonOptions common;
+    declare(app, common, commands);
     return table_of(app);
 }
 

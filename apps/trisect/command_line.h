@@ -4,16 +4,14 @@
 #pragma once
 
 #include "command_table.h"
+#include "sub_command.h"
 
 namespace trisect::app {
 
-class FurtherCommand;
-
 /// Parses the arguments, runs the sub-command, prints what it has to say and returns the exit code.
-/// `further` may be null.
-[[nodiscard]] int run(int argc, char** argv, FurtherCommand* further = nullptr);
+[[nodiscard]] int run(int argc, char** argv, const SubCommands& commands);
 
 /// All that the arguments may be.
-[[nodiscard]] CommandTable command_table(FurtherCommand* further = nullptr);
+[[nodiscard]] CommandTable command_table(const SubCommands& commands);
 
 }  // namespace trisect::app

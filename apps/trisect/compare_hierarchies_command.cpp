@@ -19,9 +19,8 @@
 #include <vector>
 
 #include "../scenes/comparison.h"
-#include "command_line.h"
+#include "command_with.h"
 #include "commands.h"
-#include "further_command.h"
 #include "motion_file.h"
 #include "operand.h"
 #include "output_name.h"
@@ -99,7 +98,7 @@ std::string answers_text(const scenes::Comparison& comparison) {
                              number_text(comparison.answers.least_distance));
 }
 
-CLI::App& add_command(CLI::App& app, CompareHierarchiesOptions& options) {
+void add_command(CLI::App& app, CompareHierarchiesOptions& options) {
     CLI::App* command = app.add_subcommand(
         "compare-hierarchies", "what structures for interference queries cost while a solid moves");
     command->add_option("A", options.inputs[0], "mesh file")->required();
@@ -121,7 +120,6 @@ CLI::App& add_command(CLI::App& app, CompareHierarchiesOptions& options) {
         ->type_name("NAME");
     command->add_option("--svg", options.chart, "chart (SVG)")->type_name("FILE");
     add_operand_options(*command, options.operands);
-    return *command;
 }
 
 Outcome run_command(Session& session, const CompareHierarchiesOptions& options) {
@@ -170,27 +168,10 @@ Outcome run_command(Session& session, const CompareHierarchiesOptions& options) 
     return out;
 }
 
-class CompareHierarchies : public FurtherCommand {
-public:
-    CLI::App& declare(CLI::App& app) override { return add_command(app, options_); }
-    [[nodiscard]] Outcome run(Session& session) const override {
-        return run_command(session, options_);
-    }
-
-private:
-    CompareHierarchiesOptions options_;
-};
-
 }  // namespace
 
-int run_with_comparison(int argc, char** argv) {
-    CompareHierarchies command;
-    return run(argc, argv, &command);
-}
-
-CommandTable table_with_comparison() {
-    CompareHierarchies command;
-    return command_table(&command);
+std::unique_ptr<SubCommand> compare_hierarchies_command() {
+    return command_with(add_command, run_command);
 }
 
 }  // namespace trisect::app

@@ -3,12 +3,12 @@
 // compare-hierarchies, which measures the structures of the comparison library.
 #pragma once
 
-#include "command_table.h"
+#include <memory>
+
+#include "sub_command.h"
 
 namespace trisect::app {
 
-/// run() of command_line.h, with this sub-command too.
-[[nodiscard]] int run_with_comparison(int argc, char** argv);
-[[nodiscard]] CommandTable table_with_comparison();
+[[nodiscard]] std::unique_ptr<SubCommand> compare_hierarchies_command();
 
 }  // namespace trisect::app

@@ -53,9 +53,9 @@ private:
     const char* first_ = nullptr;
 };
 
-using Corners = std::array<Point3d, 3>;
+using FacetCorners = std::array<Point3d, 3>;
 
-int exact_side(const Corners& t, const Point3d& normal) {
+int exact_side(const FacetCorners& t, const Point3d& normal) {
     std::array<std::array<ExactRational, 3>, 2> edge;
     for (std::size_t e = 0; e < 2; ++e)
         for (std::size_t k = 0; k < 3; ++k)
@@ -75,7 +75,7 @@ int exact_side(const Corners& t, const Point3d& normal) {
 /// products and sums make at most seven roundings of 2^-53 relative to the sum of magnitudes; the
 /// factor leaves room for fifty. Underflow makes the bound zero and overflow makes it infinite;
 /// both go to the exact sign.
-int side_of_normal(const Corners& t, const Point3d& normal) {
+int side_of_normal(const FacetCorners& t, const Point3d& normal) {
     double sum = 0;
     double magnitude = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,7 +92,7 @@ int side_of_normal(const Corners& t, const Point3d& normal) {
 
 class NormalRemarks {
 public:
-    void facet(const std::optional<Point3d>& normal, const Corners& corners, const char* at) {
+    void facet(const std::optional<Point3d>& normal, const FacetCorners& corners, const char* at) {
         ++facets_;
         if (!normal || !has_direction(*normal)) return missing_.add(at);
         if (side_of_normal(corners, *normal) < 0) opposed_.add(at);
@@ -162,7 +162,7 @@ private:
             for (; numbers < 3 && read(word, n[numbers]); ++numbers) word = next();
             if (numbers == 3) normal = n;
         }
-        Corners corners{};
+        FacetCorners corners{};
         for (std::size_t i = 0; i < 3; word = next()) {
             if (word.empty()) return;
             if (!is(word, "vertex")) continue;

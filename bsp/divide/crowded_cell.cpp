@@ -13,9 +13,9 @@ namespace trisect::detail {
 namespace {
 
 // The part of their common box that boxes of operands take in a crowded cell, on average.
-constexpr double crowded_part = 0.4;
+constexpr double crowded_share = 0.4;
 
-struct Extent {
+struct OperandExtent {
     std::array<double, 3> lo{};
     std::array<double, 3> hi{};
 
@@ -23,8 +23,8 @@ struct Extent {
 };
 
 // Of what an operand has in the cell, in lattice units.
-Extent extent_of(const CellOperand& o, const CellTask& task) {
-    Extent e;
+OperandExtent extent_of(const CellOperand& o, const CellTask& task) {
+    OperandExtent e;
     if (o.is_list) {
         for (std::size_t k = 0; k < 3; ++k) {
             e.lo[k] = static_cast<double>(task.frame.last_below(k, o.box.low(k)));
@@ -52,26 +52,26 @@ Extent extent_of(const CellOperand& o, const CellTask& task) {
 
 bool is_crowded(const CellTask& task) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Extent all;
+    OperandExtent all;
     all.lo.fill(infinity);
     all.hi.fill(-infinity);
-    std::vector<Extent> extents;
+    std::vector<OperandExtent> extents;
     extents.reserve(task.operands.size());
     for (const CellOperand& o : task.operands) {
         if (o.unbounded || (!o.is_list && !o.node->is_leaf())) return false;
-        const Extent& e = extents.emplace_back(extent_of(o, task));
+        const OperandExtent& e = extents.emplace_back(extent_of(o, task));
         for (std::size_t k = 0; k < 3; ++k) {
             all.lo[k] = std::min(all.lo[k], e.lo[k]);
             all.hi[k] = std::max(all.hi[k], e.hi[k]);
         }
     }
     double sum = 0;
-    for (const Extent& e : extents) {
+    for (const OperandExtent& e : extents) {
         double part = 1;
         for (std::size_t k = 0; k < 3; ++k) part *= e.length(k) / all.length(k);
         sum += part;
     }
-    return sum >= crowded_part * static_cast<double>(extents.size());
+    return sum >= crowded_share * static_cast<double>(extents.size());
 }
 
 }  // namespace trisect::detail

@@ -38,7 +38,7 @@ namespace {
 // Facets between two looks at the stop scope, and the least that is worth a thread.
 constexpr std::size_t many_facets = 1 << 14;
 
-const Source& source_of(const SolidState& state) {
+const Source& cut_source_of(const SolidState& state) {
     return *state.root().node->polygons().whole_source();
 }
 
@@ -46,7 +46,7 @@ const Source& source_of(const SolidState& state) {
 std::optional<std::size_t> slot_of_mesh(const SolidStates& solids) {
     std::optional<std::size_t> mesh;
     for (std::size_t i = 0; i < solids.size(); ++i) {
-        if (source_of(*solids[i]).is_half_space()) continue;
+        if (cut_source_of(*solids[i]).is_half_space()) continue;
         if (mesh) return std::nullopt;
         mesh = i;
     }
@@ -101,7 +101,7 @@ class MeshCut {
 public:
     MeshCut(const SolidStates& solids, std::size_t mesh, std::span<const CuttingPlane> planes,
             const EvaluateSettings& options, Crossings& crossings, EvaluateStats& stats)
-        : source_(source_of(*solids[mesh])),
+        : source_(cut_source_of(*solids[mesh])),
           mesh_slot_(mesh),
           planes_(planes),
           options_(options),
@@ -250,14 +250,14 @@ std::optional<std::vector<CuttingPlane>> cutting_planes(const SolidStates& solid
     std::vector<std::size_t> slots;
     for (std::size_t i = 0; i < solids.size(); ++i) {
         if (i == mesh) continue;
-        sides.push_back({source_of(*solids[i]).support(0), crossings.operands[i].is_open_below()});
+        sides.push_back({cut_source_of(*solids[i]).support(0), crossings.operands[i].is_open_below()});
         slots.push_back(i);
     }
     const auto tight = tight_sides(sides);
     if (!tight) return std::nullopt;
     std::vector<CuttingPlane> out;
     for (const std::size_t i : *tight)
-        out.emplace_back(sides[i], slots[i], source_of(*solids[mesh]).box());
+        out.emplace_back(sides[i], slots[i], cut_source_of(*solids[mesh]).box());
     return out;
 }
 
@@ -272,7 +272,7 @@ bool is_mesh_with_half_spaces(const Residual::Ref& formula, const SolidStates& s
     if (!mesh) return false;
     const CellRef& root = solids[*mesh]->root();
     // What is far away is not open to the planes: they end within the mesh.
-    return lies_outside(root.node->reference(), source_of(*solids[*mesh]).box()) &&
+    return lies_outside(root.node->reference(), cut_source_of(*solids[*mesh]).box()) &&
            complemented_winding(root.node->winding(), root.complemented) !=
                crossings->operands[*mesh].open;
 }
@@ -296,7 +296,7 @@ std::optional<SolidForm> evaluate_between_half_spaces(const Residual::Ref& formu
     stats = made;
     std::vector<UncrossedFacets> lists;
     for (std::size_t i = 0; i < solids.size(); ++i)
-        lists.push_back({&source_of(*solids[i]), crossings->operands[i].inside_above, {}});
+        lists.push_back({&cut_source_of(*solids[i]), crossings->operands[i].inside_above, {}});
     lists[mesh].facets = *std::move(uncrossed);
     return UndividedMeshes{std::move(lists),
                            std::make_shared<const Crossings>(*std::move(crossings)),

@@ -39,7 +39,7 @@ using Leaf = MspTree::Leaf;
 
 constexpr std::uint32_t unknown = ~std::uint32_t{0};
 
-bool are_parallel(const Plane& a, const Plane& b) {
+bool are_parallel_cuts(const Plane& a, const Plane& b) {
     return sign_of_cross(a, b, 0) == 0 && sign_of_cross(a, b, 1) == 0 &&
            sign_of_cross(a, b, 2) == 0;
 }
@@ -97,7 +97,7 @@ private:
         int count = 0;
         const auto take = [&](PlaneIndex p) {
             const Plane& plane = geometry().plane(p);
-            if (count == 1 && are_parallel(geometry().plane(named[0]), plane)) return false;
+            if (count == 1 && are_parallel_cuts(geometry().plane(named[0]), plane)) return false;
             if (count == 2 &&
                 !meet_in_a_point(geometry().plane(named[0]), geometry().plane(named[1]), plane))
                 return false;
@@ -158,7 +158,7 @@ private:
         const EdgeId e = brep_.edge(h);
         const FaceId f = brep_.face(h);
         const auto crosses = [&](FaceId other) {
-            return other != f && !are_parallel(brep_.plane(f), brep_.plane(other));
+            return other != f && !are_parallel_cuts(brep_.plane(f), brep_.plane(other));
         };
         if (const FaceId other = brep_.face(brep_.twin(h)); crosses(other)) return other.index;
         for (const EdgeId copy : brep_.copies(e)) {
@@ -180,7 +180,7 @@ private:
         for (const Point* end : {&a, &b}) {
             if (end->is_lattice()) continue;
             for (const Plane& p : end->plane_point()->planes)
-                if (!are_parallel(p, support) && side_of(a, p) == Side::On &&
+                if (!are_parallel_cuts(p, support) && side_of(a, p) == Side::On &&
                     side_of(b, p) == Side::On)
                     return p;
         }

@@ -94,14 +94,14 @@ ShellBox box_of(const Brep& brep, ShellId shell) {
 }
 
 // A shell that bounds material, without cavities yet.
-struct Part {
+struct SolidPart {
     std::vector<ShellId> shells;
     ExactRational volume;
     ShellBox box;
     std::unique_ptr<BrepIndex> index;  // of the shell alone, when it is first needed
 };
 
-bool is_around(const Part& part, const Brep& brep, ShellId cavity) {
+bool is_around(const SolidPart& part, const Brep& brep, ShellId cavity) {
     for (const FaceId f : brep.faces(cavity))
         for (const HalfedgeId h : brep.halfedges(f)) {
             const Location l = part.index->locate(brep.point(brep.origin(h))).location;
@@ -112,10 +112,10 @@ bool is_around(const Part& part, const Brep& brep, ShellId cavity) {
     return part.volume > -exact_volume(brep, cavity);
 }
 
-Part& part_around(std::vector<Part*>& by_volume, const Brep& brep, ShellId cavity,
+SolidPart& part_around(std::vector<SolidPart*>& by_volume, const Brep& brep, ShellId cavity,
                   ShellCopier& copier) {
     const ShellBox box = box_of(brep, cavity);
-    for (Part* p : by_volume) {
+    for (SolidPart* p : by_volume) {
         if (!p->box.may_be_around(box)) continue;
         if (p->index == nullptr)
             p->index = std::make_unique<BrepIndex>(
@@ -125,8 +125,8 @@ Part& part_around(std::vector<Part*>& by_volume, const Brep& brep, ShellId cavit
     throw Error(ErrorCode::Internal, "a cavity lies in no part of its solid");
 }
 
-std::vector<Part> parts_of(const Brep& brep, ShellCopier& copier) {
-    std::vector<Part> parts;
+std::vector<SolidPart> parts_of(const Brep& brep, ShellCopier& copier) {
+    std::vector<SolidPart> parts;
     std::vector<ShellId> cavities;
     for (const ShellId s : brep.shells()) {
         if (sign_of_volume(brep, s) < 0) {
@@ -135,9 +135,9 @@ std::vector<Part> parts_of(const Brep& brep, ShellCopier& copier) {
             parts.push_back({{s}, exact_volume(brep, s), box_of(brep, s), nullptr});
         }
     }
-    std::vector<Part*> by_volume;
-    for (Part& p : parts) by_volume.push_back(&p);
-    std::ranges::stable_sort(by_volume, {}, [](const Part* p) { return p->volume; });
+    std::vector<SolidPart*> by_volume;
+    for (SolidPart& p : parts) by_volume.push_back(&p);
+    std::ranges::stable_sort(by_volume, {}, [](const SolidPart* p) { return p->volume; });
     for (const ShellId c : cavities) part_around(by_volume, brep, c, copier).shells.push_back(c);
     return parts;
 }
@@ -155,7 +155,7 @@ std::vector<Solid> components(const Solid& solid) {
     if (brep.shells().size() == 1) return {resolved};
     std::vector<Solid> out;
     ShellCopier copier(brep);
-    for (const Part& p : parts_of(brep, copier))
+    for (const SolidPart& p : parts_of(brep, copier))
         out.push_back(detail::named_solid(copier.copy(p.shells)));
     return out;
 }

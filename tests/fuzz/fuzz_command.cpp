@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include "byte_source.h"
+#include "trisect/command_line.h"
 #include "trisect/compare_hierarchies_command.h"
 
 namespace {
@@ -193,7 +194,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     int code = 0;
     {
         const Visit visit(folder.path());
-        code = trisect::app::run_with_comparison(static_cast<int>(argv.size()) - 1, argv.data());
+        trisect::app::SubCommands commands = trisect::app::all_commands();
+        commands.push_back(trisect::app::compare_hierarchies_command());
+        code = trisect::app::run(static_cast<int>(argv.size()) - 1, argv.data(), commands);
     }
     require(code >= 0 && code <= 7);
     folder.clean();

@@ -40,7 +40,7 @@ namespace trisect::detail {
 namespace {
 
 using Four = std::array<float, 4>;
-using Numbers = const std::array<Four, 4>*;
+using RowNumbers = const std::array<Four, 4>*;
 using Vectors = std::array<Float4, 3>;
 
 Float4 load(const Four& v) {
@@ -73,7 +73,7 @@ struct Facets {
     Float4 bound;
     Float4 tilt;
 
-    explicit Facets(const std::array<Numbers, 4>& numbers) {
+    explicit Facets(const std::array<RowNumbers, 4>& numbers) {
         const auto columns = [&](std::size_t i) {
             return transposed((*numbers[0])[i], (*numbers[1])[i], (*numbers[2])[i],
                               (*numbers[3])[i]);
@@ -155,8 +155,8 @@ std::array<unsigned, 3> bits_of_each(const std::array<Mask4, 3>& masks) {
     return {bits_of(masks[0]), bits_of(masks[1]), bits_of(masks[2])};
 }
 
-TRISECT_WIDE_CLONES void relate_four(const std::array<Numbers, 4>& first,
-                                     const std::array<Numbers, 4>& second,
+TRISECT_WIDE_CLONES void relate_four(const std::array<RowNumbers, 4>& first,
+                                     const std::array<RowNumbers, 4>& second,
                                      FacetRows::Relation& out) {
     const Facets a(first);
     const Facets b(second);
@@ -197,8 +197,8 @@ TRISECT_WIDE_CLONES void relate_four(const std::array<Numbers, 4>& first,
 }  // namespace
 
 FacetRows::Relation FacetRows::relate(const std::array<Pair, 4>& pairs) const {
-    std::array<Numbers, 4> first;
-    std::array<Numbers, 4> second;
+    std::array<RowNumbers, 4> first;
+    std::array<RowNumbers, 4> second;
     for (std::size_t i = 0; i < 4; ++i) {
         first[i] = &singles_[pairs[i][0]].numbers;
         second[i] = &singles_[pairs[i][1]].numbers;

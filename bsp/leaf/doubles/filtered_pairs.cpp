@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::uint8_t, 16> count_of{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 
 // So many are listed before they are compared.
-constexpr std::size_t many_pairs = 4096;
+constexpr std::size_t many_leaf_pairs = 4096;
 
 }  // namespace
 
@@ -196,7 +196,7 @@ bool FilteredPairs::sweep(FilteredFacets& facets, std::span<const std::uint8_t> 
             }
         }
         stats.pairs_boxes += meeting;
-        if (pairs_.size() >= many_pairs && !add_pairs(facets)) return false;
+        if (pairs_.size() >= many_leaf_pairs && !add_pairs(facets)) return false;
     }
     return add_pairs(facets);
 }

@@ -35,8 +35,8 @@ namespace trisect::detail {
 
 namespace {
 
-using Normal = std::array<Int128, 3>;
-using Fine = std::array<std::int64_t, 3>;
+using WideNormal = std::array<Int128, 3>;
+using FineVector = std::array<std::int64_t, 3>;
 
 int bit_length(Int128 v) {
     const Uint128 m =
@@ -45,12 +45,12 @@ int bit_length(Int128 v) {
     return high != 0 ? 128 - std::countl_zero(high)
                      : 64 - std::countl_zero(static_cast<std::uint64_t>(m));
 }
-int bit_length(const Normal& n) {
+int bit_length(const WideNormal& n) {
     return std::max({bit_length(n[0]), bit_length(n[1]), bit_length(n[2])});
 }
 
 // The sign of n · (scale p - base). \pre |n| < 2^126, |base| < 2^63, scale is 1 or splitting_scale.
-int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, std::int64_t scale) {
+int sign_linear(const IndexPoint& p, const WideNormal& n, const FineVector& base, std::int64_t scale) {
     if (const auto& small = p.small()) {
         // |c| < 2^62: c scale and base 2^62 fit 128 bits.
         std::array<Int128, 3> x{};
@@ -83,30 +83,30 @@ int sign_linear(const IndexPoint& p, const Normal& n, const Fine& base, std::int
 }
 
 // The corners of a source's facet, and whether all of that source are whole.
-struct Triangle {
+struct IndexTriangle {
     const LatticePoint& a;
     const LatticePoint& b;
     const LatticePoint& c;
     bool whole = true;
 };
 
-Fine fine_coordinates(const LatticePoint& p) {
+FineVector fine_coordinates(const LatticePoint& p) {
     return {fine_position(p.x), fine_position(p.y), fine_position(p.z)};
 }
 
-Normal exact_cross(const Fine& u, const Fine& v) {
+WideNormal exact_cross(const FineVector& u, const FineVector& v) {
     const auto minor = [&](std::size_t j, std::size_t l) {
         return Int128{u[j]} * v[l] - Int128{u[l]} * v[j];
     };
     return {minor(1, 2), minor(2, 0), minor(0, 1)};
 }
 
-Normal whole_normal(const Triangle& t) {
+WideNormal whole_normal(const IndexTriangle& t) {
     return exact_cross(minus(to_integers(t.b), to_integers(t.a)),
                        minus(to_integers(t.c), to_integers(t.a)));
 }
 
-int exact_side(const IndexPoint& p, const Triangle& t) {
+int exact_side(const IndexPoint& p, const IndexTriangle& t) {
     if (!t.whole) return p.side_of(Plane::through(t.a, t.b, t.c));
     return sign_linear(p, whole_normal(t), to_integers(t.a), 1);
 }
@@ -120,8 +120,8 @@ int exact_turn(const IndexPoint& p, const LatticePoint& a, const LatticePoint& b
         if (coordinate(a, j) == coordinate(b, j) && coordinate(a, l) == coordinate(b, l)) return 0;
         return -p.side_of(Plane::along_axis(a, b, static_cast<int>(k)));
     }
-    const Fine e = minus(to_integers(b), to_integers(a));
-    Normal n{};  // (p - a)_l e_j - (p - a)_j e_l
+    const FineVector e = minus(to_integers(b), to_integers(a));
+    WideNormal n{};  // (p - a)_l e_j - (p - a)_j e_l
     n[l] = e[j];
     n[j] = -Int128{e[l]};
     return sign_linear(p, n, to_integers(a), 1);
@@ -151,7 +151,7 @@ int side_of_fractions(const IndexPoint& p, const Reference& r, const LatticePoin
 
 int side_of_whole(const IndexPoint& p, const FinePoint& r, const LatticePoint& a,
                   const LatticePoint& b) {
-    Normal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
+    WideNormal n = exact_cross(minus(fine_coordinates(a), r.c), minus(fine_coordinates(b), r.c));
     for (Int128& x : n) x = -x;
     return sign_linear(p, n, r.c, splitting_scale);
 }
@@ -188,10 +188,10 @@ int exact_reference_side(const FinePoint& r, const Plane& plane) {
     return s != 0 ? s : first_sign(plane);
 }
 
-int exact_reference_side(const FinePoint& r, const Triangle& t) {
+int exact_reference_side(const FinePoint& r, const IndexTriangle& t) {
     if (!t.whole) return exact_reference_side(r, Plane::through(t.a, t.b, t.c));
-    const Normal n = whole_normal(t);
-    const Fine d = minus(r.c, fine_coordinates(t.a));
+    const WideNormal n = whole_normal(t);
+    const FineVector d = minus(r.c, fine_coordinates(t.a));
     ++detail::counters_of_thread<PredicateCounters>.exact_narrow;
     WideInt<4> sum;  // 109 + 63 + 2 bits
     for (std::size_t k = 0; k < 3; ++k) sum += multiply<4>(WideInt<2>(n[k]), WideInt<1>(d[k]));
@@ -207,20 +207,20 @@ struct Facing {
     int turn = 0;
 };
 
-Facing facing(const Triangle& t) {
+Facing facing(const IndexTriangle& t) {
     if (!t.whole) {
         const Plane plane = Plane::through(t.a, t.b, t.c);
         const int axis = plane.dominant_axis();
         return {static_cast<std::size_t>(axis), plane.normal(axis).sign()};
     }
-    const Normal n = whole_normal(t);
+    const WideNormal n = whole_normal(t);
     std::size_t k = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (bit_length(n[i]) > bit_length(n[k])) k = i;
     return {k, sign(n[k])};
 }
 
-bool is_outside_box(const IndexPoint& p, const Triangle& t) {
+bool is_outside_box(const IndexPoint& p, const IndexTriangle& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto axis = static_cast<int>(i);
         const double lo = std::min({t.a[axis], t.b[axis], t.c[axis]}).to_double();
@@ -231,7 +231,7 @@ bool is_outside_box(const IndexPoint& p, const Triangle& t) {
 }
 
 // For a point in the plane of the triangle.
-bool is_in_triangle(const IndexPoint& p, const Triangle& t) {
+bool is_in_triangle(const IndexPoint& p, const IndexTriangle& t) {
     if (is_outside_box(p, t)) return false;  // most are
     const auto [k, turn] = facing(t);
     const auto is_left = [&, k = k, turn = turn](const LatticePoint& a, const LatticePoint& b) {
@@ -242,13 +242,13 @@ bool is_in_triangle(const IndexPoint& p, const Triangle& t) {
 
 // Whether a point is on a triangle, in integers of two words where these are enough; nothing
 // otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
-std::optional<bool> is_on_narrow(const IndexPoint& p, const Triangle& t, const Vector3& normal) {
+std::optional<bool> is_on_narrow(const IndexPoint& p, const IndexTriangle& t, const Vector3& normal) {
     const auto& small = p.small();
     if (!small) return std::nullopt;
     const auto bits = static_cast<unsigned>(small->bits);
     const std::array<const LatticePoint*, 3> corner{&t.a, &t.b, &t.c};
-    std::array<Fine, 3> edge;
-    std::array<Fine, 3> way;  // to the point, in its finest bits
+    std::array<FineVector, 3> edge;
+    std::array<FineVector, 3> way;  // to the point, in its finest bits
     double longest_edge = 0;
     double longest_way = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -270,7 +270,7 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const Triangle& t, const V
     const double longest_normal = largest_component(normal) + 0x1p-40 * longest_edge * longest_edge;
     if (!(longest_way < 0x1p61) || !(longest_normal * longest_way < 0x1p124)) return std::nullopt;
     ++detail::counters_of_thread<PredicateCounters>.exact_narrow;
-    const Normal n = exact_cross(edge[0], edge[1]);
+    const WideNormal n = exact_cross(edge[0], edge[1]);
     if (n[0] * way[0][0] + n[1] * way[0][1] + n[2] * way[0][2] != 0) return false;
     // Seen along the axis in which the normal is largest.
     std::size_t k = 0;
@@ -289,7 +289,7 @@ std::optional<bool> is_on_narrow(const IndexPoint& p, const Triangle& t, const V
 
 // The same for corners with bits behind the point. In their finest unit edges are below 2^127 and
 // the normal below 2^255; a way in the finest one of all is below 2^(55 + way_bits).
-std::optional<bool> is_on_fractions(const IndexPoint& p, const Triangle& t) {
+std::optional<bool> is_on_fractions(const IndexPoint& p, const IndexTriangle& t) {
     constexpr int way_bits = 120;
     if (!p.is_doubles() || !(largest_component(p.approximate()) < 0x1p54)) return std::nullopt;
     if (is_outside_box(p, t)) return false;
@@ -393,7 +393,7 @@ Passing passing_convex(const IndexPolygons& polygons, IndexPolygons::Id id, cons
     return p_side < 0 ? Passing::Entering : Passing::Leaving;
 }
 
-Passing passing_triangle(const Triangle& t, const IndexPoint& p, const Reference& r) {
+Passing passing_triangle(const IndexTriangle& t, const IndexPoint& p, const Reference& r) {
     const Vector3 fa = t.a.doubles();
     const Vector3 fb = t.b.doubles();
     const Vector3 fc = t.c.doubles();
@@ -452,7 +452,7 @@ Passing passing_triangle(const Triangle& t, const IndexPoint& p, const Reference
     return p_side < 0 ? Passing::Entering : Passing::Leaving;
 }
 
-Triangle triangle(const IndexPolygons& polygons, IndexPolygons::Id id) {
+IndexTriangle triangle(const IndexPolygons& polygons, IndexPolygons::Id id) {
     const Source& s = polygons.source(id);
     const std::uint32_t f = polygons.facet(id);
     return {s.corner(f, 0), s.corner(f, 1), s.corner(f, 2), s.is_whole()};
@@ -475,7 +475,7 @@ Passing passing(const IndexPolygons& polygons, IndexPolygons::Id id, const Index
 
 bool is_on(const IndexPolygons& polygons, IndexPolygons::Id id, const IndexPoint& p) {
     if (polygons.is_triangle(id)) {
-        const Triangle t = triangle(polygons, id);
+        const IndexTriangle t = triangle(polygons, id);
         const Vector3 fa = t.a.doubles();
         if (p.is_doubles() && (p.approximate() == fa || p.approximate() == t.b.doubles() ||
                                p.approximate() == t.c.doubles())) {

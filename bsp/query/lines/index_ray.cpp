@@ -278,7 +278,7 @@ private:
 };
 
 // A contact with its ends.
-struct Part {
+struct RayPart {
     PolygonId id;
     ContactEnds ends;
 };
@@ -316,7 +316,7 @@ public:
 private:
     void cut() {
         std::vector<RayParameter> at;
-        for (const Part& p : parts_) {
+        for (const RayPart& p : parts_) {
             at.push_back(p.ends.enter);
             at.push_back(p.ends.leave);
         }
@@ -324,26 +324,26 @@ private:
         at.erase(std::unique(at.begin(), at.end()), at.end());
         // For every part the numbers of its ends; then sweep.
         std::sort(parts_.begin(), parts_.end(),
-                  [](const Part& a, const Part& b) { return (a.ends.enter <=> b.ends.enter) < 0; });
-        std::vector<const Part*> open;
+                  [](const RayPart& a, const RayPart& b) { return (a.ends.enter <=> b.ends.enter) < 0; });
+        std::vector<const RayPart*> open;
         std::size_t next = 0;
         for (std::size_t i = 0; i < at.size(); ++i) {
-            std::erase_if(open, [&](const Part* p) { return (p->ends.leave <=> at[i]) < 0; });
+            std::erase_if(open, [&](const RayPart* p) { return (p->ends.leave <=> at[i]) < 0; });
             while (next < parts_.size() && (parts_[next].ends.enter <=> at[i]) <= 0)
                 open.push_back(&parts_[next++]);
             if (!at[i].is_infinite()) add(at[i], at[i], false, open);
             if (i + 1 == at.size()) break;
-            std::vector<const Part*> going;
-            for (const Part* p : open)
+            std::vector<const RayPart*> going;
+            for (const RayPart* p : open)
                 if ((p->ends.leave <=> at[i + 1]) >= 0) going.push_back(p);
             if (!going.empty()) add(at[i], at[i + 1], true, going);
         }
     }
 
     void add(const RayParameter& enter, const RayParameter& leave, bool is_interval,
-             const std::vector<const Part*>& parts) {
+             const std::vector<const RayPart*>& parts) {
         LinePiece piece{enter, leave, is_interval, 0, {}};
-        for (const Part* p : parts) piece.on.push_back(p->id);
+        for (const RayPart* p : parts) piece.on.push_back(p->id);
         piece.rank = place_on(piece.on).face_count;
         pieces_.push_back(std::move(piece));
     }
@@ -386,7 +386,7 @@ private:
 
     const IndexCore& core_;
     const IndexLine& line_;
-    std::vector<Part> parts_;
+    std::vector<RayPart> parts_;
     std::vector<LinePiece> pieces_;
 };
 
