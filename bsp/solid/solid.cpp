@@ -155,7 +155,7 @@ void detail::require_accepted(Embedding embedding, InsideOut inside_out) {
     if (inside_out == InsideOut::Refuse)
         throw Error(ErrorCode::InvalidSolid,
                     "the boundary is inside out: its volume is negative; turn its faces over, or "
-                    "accept it (SolidOptions::inside_out) and evaluate with Winding::NonZero");
+                    "accept it (inside_out) and evaluate by the winding rule 'nonzero'");
 }
 
 const std::shared_ptr<const SolidState>& Solid::empty_state() {

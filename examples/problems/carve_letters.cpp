@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,67 +25,23 @@ void expect(bool holds, const char* what) {
 }
 
 // Letters on a grid of 4 x 7: outlines, the first one outside, the others holes.
-const std::map<char, std::vector<Outline>> letters{
-    {'T', {{{0, 7}, {0, 6}, {1.5, 6}, {1.5, 0}, {2.5, 0}, {2.5, 6}, {4, 6}, {4, 7}}}},
+const std::map<char, std::vector<std::string>> letters{
+    {'T', {"0 7  0 6  1.5 6  1.5 0  2.5 0  2.5 6  4 6  4 7"}},
     {'R',
-     {{{0, 0},
-       {1, 0},
-       {1, 3},
-       {1.5, 3},
-       {3, 0},
-       {4, 0},
-       {2.5, 3},
-       {3, 3},
-       {4, 4},
-       {4, 6},
-       {3, 7},
-       {0, 7}},
-      {{1, 4}, {1, 6}, {2.5, 6}, {3, 5.5}, {3, 4.5}, {2.5, 4}}}},
-    {'I', {{{1.5, 0}, {2.5, 0}, {2.5, 7}, {1.5, 7}}}},
-    {'S',
-     {{{0, 0},
-       {3, 0},
-       {4, 1},
-       {4, 3},
-       {3, 4},
-       {1, 4},
-       {1, 6},
-       {4, 6},
-       {4, 7},
-       {1, 7},
-       {0, 6},
-       {0, 4},
-       {1, 3},
-       {3, 3},
-       {3, 1},
-       {0, 1}}}},
-    {'E',
-     {{{0, 0},
-       {4, 0},
-       {4, 1},
-       {1, 1},
-       {1, 3},
-       {3, 3},
-       {3, 4},
-       {1, 4},
-       {1, 6},
-       {4, 6},
-       {4, 7},
-       {0, 7}}}},
-    {'C',
-     {{{1, 0},
-       {4, 0},
-       {4, 1},
-       {1.5, 1},
-       {1, 1.5},
-       {1, 5.5},
-       {1.5, 6},
-       {4, 6},
-       {4, 7},
-       {1, 7},
-       {0, 6},
-       {0, 1}}}},
+     {"0 0  1 0  1 3  1.5 3  3 0  4 0  2.5 3  3 3  4 4  4 6  3 7  0 7",
+      "1 4  1 6  2.5 6  3 5.5  3 4.5  2.5 4"}},
+    {'I', {"1.5 0  2.5 0  2.5 7  1.5 7"}},
+    {'S', {"0 0  3 0  4 1  4 3  3 4  1 4  1 6  4 6  4 7  1 7  0 6  0 4  1 3  3 3  3 1  0 1"}},
+    {'E', {"0 0  4 0  4 1  1 1  1 3  3 3  3 4  1 4  1 6  4 6  4 7  0 7"}},
+    {'C', {"1 0  4 0  4 1  1.5 1  1 1.5  1 5.5  1.5 6  4 6  4 7  1 7  0 6  0 1"}},
 };
+
+Outline outline_of(const std::string& text) {
+    std::istringstream words(text);
+    Outline out;
+    for (Point2d p{}; words >> p[0] >> p[1];) out.push_back(p);
+    return out;
+}
 
 double area(const Outline& loop) {
     double twice = 0;
@@ -102,9 +59,10 @@ struct Letter {
 };
 
 Letter make_letter(char name, double x, double low, double high) {
-    std::vector<Outline> loops = letters.at(name);
+    std::vector<Outline> loops;
     Letter letter;
-    for (Outline& loop : loops) {
+    for (const std::string& text : letters.at(name)) {
+        Outline& loop = loops.emplace_back(outline_of(text));
         letter.area += letter.area == 0 ? area(loop) : -area(loop);
         letter.corners += loop.size();
         for (Point2d& p : loop) p[0] += x;

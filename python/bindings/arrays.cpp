@@ -276,8 +276,8 @@ PolygonMesh mesh_of_pair(const py::object& mesh, const char* what) {
         return mesh_of(pair[0], pair[1]);
     }
     throw py::type_error(std::string(what) +
-                         ": must be a pair (vertices, faces), or have these "
-                         "two as attributes");
+                         ": must be a pair (vertices, faces), such as that of "
+                         "Solid.mesh(), or have these two as attributes");
 }
 
 std::vector<double> numbers_of(const py::object& numbers, std::size_t count, const char* what) {

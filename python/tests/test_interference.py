@@ -18,6 +18,7 @@ def shift(x, y=0, z=0):
 def test_relations(cube):
     assert trisect.interfere(cube, None, cube, None).relation == Relation.EQUAL
     assert trisect.interfere(cube, None, cube, shift(1)).relation == Relation.TOUCHING
+    assert str(Relation.TOUCHING) == "Relation.TOUCHING"
     assert trisect.interfere(cube, None, cube, shift(0.5)).relation == Relation.OVERLAPPING
     assert trisect.interfere(cube, None, cube, shift(2)).relation == Relation.DISJOINT
     half = np.diag([0.5, 0.5, 0.5, 1])
