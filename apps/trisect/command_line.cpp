@@ -241,8 +241,7 @@ int run_command(Console& console, const CommonOptions& common, const SubCommand&
 }
 
 /// Parses, answers --help and --version, or runs.
-int parse_and_run(Console& console, bool json, int argc, char** argv,
-                  const SubCommands& commands) {
+int parse_and_run(Console& console, bool json, int argc, char** argv, const SubCommands& commands) {
     CLI::App app(what_it_is, "trisect");
     CommonOptions common;
     const NamedCommands named = declare(app, common, commands);

@@ -250,7 +250,8 @@ std::optional<std::vector<CuttingPlane>> cutting_planes(const SolidStates& solid
     std::vector<std::size_t> slots;
     for (std::size_t i = 0; i < solids.size(); ++i) {
         if (i == mesh) continue;
-        sides.push_back({cut_source_of(*solids[i]).support(0), crossings.operands[i].is_open_below()});
+        sides.push_back(
+            {cut_source_of(*solids[i]).support(0), crossings.operands[i].is_open_below()});
         slots.push_back(i);
     }
     const auto tight = tight_sides(sides);

@@ -113,7 +113,7 @@ bool is_around(const SolidPart& part, const Brep& brep, ShellId cavity) {
 }
 
 SolidPart& part_around(std::vector<SolidPart*>& by_volume, const Brep& brep, ShellId cavity,
-                  ShellCopier& copier) {
+                       ShellCopier& copier) {
     const ShellBox box = box_of(brep, cavity);
     for (SolidPart* p : by_volume) {
         if (!p->box.may_be_around(box)) continue;

@@ -50,7 +50,8 @@ int bit_length(const WideNormal& n) {
 }
 
 // The sign of n · (scale p - base). \pre |n| < 2^126, |base| < 2^63, scale is 1 or splitting_scale.
-int sign_linear(const IndexPoint& p, const WideNormal& n, const FineVector& base, std::int64_t scale) {
+int sign_linear(const IndexPoint& p, const WideNormal& n, const FineVector& base,
+                std::int64_t scale) {
     if (const auto& small = p.small()) {
         // |c| < 2^62: c scale and base 2^62 fit 128 bits.
         std::array<Int128, 3> x{};
@@ -242,7 +243,8 @@ bool is_in_triangle(const IndexPoint& p, const IndexTriangle& t) {
 
 // Whether a point is on a triangle, in integers of two words where these are enough; nothing
 // otherwise. `normal`: in doubles, from edges that differ from the exact ones by rounding.
-std::optional<bool> is_on_narrow(const IndexPoint& p, const IndexTriangle& t, const Vector3& normal) {
+std::optional<bool> is_on_narrow(const IndexPoint& p, const IndexTriangle& t,
+                                 const Vector3& normal) {
     const auto& small = p.small();
     if (!small) return std::nullopt;
     const auto bits = static_cast<unsigned>(small->bits);

@@ -323,8 +323,9 @@ private:
         std::sort(at.begin(), at.end(), [](const auto& a, const auto& b) { return (a <=> b) < 0; });
         at.erase(std::unique(at.begin(), at.end()), at.end());
         // For every part the numbers of its ends; then sweep.
-        std::sort(parts_.begin(), parts_.end(),
-                  [](const RayPart& a, const RayPart& b) { return (a.ends.enter <=> b.ends.enter) < 0; });
+        std::sort(parts_.begin(), parts_.end(), [](const RayPart& a, const RayPart& b) {
+            return (a.ends.enter <=> b.ends.enter) < 0;
+        });
         std::vector<const RayPart*> open;
         std::size_t next = 0;
         for (std::size_t i = 0; i < at.size(); ++i) {
