@@ -14,8 +14,8 @@
 #include <vector>
 
 #include <trisect/brep/brep.h>
+#include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/brep/lattice_mesh.h>
-#include <trisect/brep/validate/facet_kinds.h>
 #include <trisect/bsp/cells/cell.h>
 #include <trisect/bsp/cells/lattice_move.h>
 #include <trisect/kernel/plane.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The part in a cell of a mesh that meets itself in other places.
+// Embedded parts of meshes that meet themselves in other cells.
 #pragma once
 
 #include <trisect/bsp/divide/cell_task.h>

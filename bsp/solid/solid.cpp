@@ -10,9 +10,9 @@
 #include <variant>
 #include <vector>
 
+#include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
-#include <trisect/brep/validate/facet_kinds.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/assembly/outline_names.h>
 #include <trisect/bsp/cells/lazy_tree.h>

@@ -16,10 +16,10 @@
 #include <utility>
 
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/validate/embedding.h>
-#include <trisect/brep/validate/facet_kinds.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>

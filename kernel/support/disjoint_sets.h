@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// DisjointSets: which of some numbers are joined.
+// DisjointSets: sets of numbers that are joined.
 #pragma once
 
 #include <algorithm>

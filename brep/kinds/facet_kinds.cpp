@@ -7,7 +7,7 @@
 // corner, moved by e along one side and by e² along another one. The projected point is on no edge
 // then, and all signs are those of the first of the facet's corners that has one.
 
-#include <trisect/brep/validate/facet_kinds.h>
+#include <trisect/brep/kinds/facet_kinds.h>
 
 #include <algorithm>
 #include <array>

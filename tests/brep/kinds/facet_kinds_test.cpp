@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/brep/validate/facet_kinds.h>
+#include <trisect/brep/kinds/facet_kinds.h>
 
 #include <algorithm>
 #include <array>
