@@ -56,6 +56,7 @@
 #include <trisect/bsp/modelling/offset.h>
 #include <trisect/bsp/modelling/projection.h>
 #include <trisect/bsp/msp_tree.h>
+#include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>

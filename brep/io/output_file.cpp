@@ -94,8 +94,9 @@ public:
 
     void set_mode(mode_t mode) noexcept { (void)::fchmod(descriptor_, mode & 0777); }
 
-    void write(std::string_view bytes) {
+    void write(std::string_view bytes, OutputSafety safety) {
         if (const int error = write_all(descriptor_, bytes)) abandon(error);
+        if (safety == OutputSafety::Flushed && ::fsync(descriptor_) != 0) abandon(errno);
         const int closed = ::close(descriptor_);  // a quota or network file system may fail here
         descriptor_ = -1;
         if (closed != 0) abandon(errno);
@@ -104,6 +105,15 @@ public:
     void rename_to_target() {
         if (::rename(path_.c_str(), target_.c_str()) != 0) abandon(errno);
         gone_ = true;
+    }
+
+    /// The name, too. Not all file systems can; the file is there all the same.
+    void flush_folder() const noexcept {
+        const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+        const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor < 0) return;
+        (void)::fsync(descriptor);
+        ::close(descriptor);
     }
 
 private:
@@ -150,14 +160,15 @@ void write_descriptor(int descriptor, const std::string& name, std::string_view 
     if (const int error = write_all(descriptor, bytes)) fail(name, error);
 }
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const fs::path& path, std::string_view bytes, OutputSafety safety) {
     struct stat status {};
     const bool exists = ::stat(path.c_str(), &status) == 0;
     if (exists && !S_ISREG(status.st_mode)) return write_directly(path, bytes);
     TemporaryFile file(output_target(path));
     if (exists) file.set_mode(status.st_mode);
-    file.write(bytes);
+    file.write(bytes, safety);
     file.rename_to_target();
+    if (safety == OutputSafety::Flushed) file.flush_folder();
 }
 
 }  // namespace trisect

@@ -12,6 +12,7 @@
 // closes its end of a pipe is such an error too and raises no signal.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -22,7 +23,14 @@ namespace trisect {
 /// Links in the names of folders are left as they are. Errors: as above, for links in a circle.
 [[nodiscard]] std::filesystem::path output_target(const std::filesystem::path& path);
 
-void write_file(const std::filesystem::path& path, std::string_view bytes);
+/// What a failure of the power leaves.
+enum class OutputSafety : std::uint8_t {
+    Renamed,  ///< the old file, the new one, or an empty one where the file system orders nothing
+    Flushed   ///< the old file or the new one; waits for the disk
+};
+
+void write_file(const std::filesystem::path& path, std::string_view bytes,
+                OutputSafety safety = OutputSafety::Renamed);
 
 /// Writes to an open descriptor, such as 1 for the standard output, which stays open; `name` stands
 /// for it in messages. What was written before a failure cannot be taken back.

@@ -20,10 +20,9 @@ namespace trisect::detail {
 
 namespace {
 
-std::uint64_t next_serial() {
-    static std::atomic<std::uint64_t> serial{0};
-    return ++serial;
-}
+std::atomic<std::uint64_t> last_serial{0};
+
+std::uint64_t next_serial() { return ++last_serial; }
 
 struct Extent {
     Box box;
@@ -160,6 +159,23 @@ std::shared_ptr<const Source> Source::of_kinds(std::shared_ptr<const Source> sou
     made.kinds_ = std::make_shared<const std::vector<FacetKind>>(std::move(kinds));
     return source;
 }
+
+std::shared_ptr<const Source> Source::stored(std::shared_ptr<const Source> source, Stored stored) {
+    auto& made = const_cast<Source&>(*source);
+    made.operand_ = stored.operand;
+    made.axes_ = stored.axes;
+    if (stored.of_same_serial != nullptr) made.serial_ = stored.of_same_serial->serial_;
+    return stored.names.empty() ? source : named(source, std::move(stored.names));
+}
+
+void Source::reserve_serials(std::uint64_t largest) {
+    if (largest >= std::uint64_t{1} << 31) return;
+    std::uint64_t last = last_serial.load();
+    while (last < largest && !last_serial.compare_exchange_weak(last, largest)) {
+    }
+}
+
+std::uint64_t Source::take_serials(std::uint64_t count) { return last_serial.fetch_add(count) + 1; }
 
 std::shared_ptr<const Source> Source::moved(const LatticeMove& move) const {
     std::shared_ptr<const Source> out;

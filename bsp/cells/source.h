@@ -52,6 +52,12 @@ public:
     }
     /// What results call the operand that corners come from.
     [[nodiscard]] std::uint32_t operand() const { return operand_; }
+    /// The names of faces, of a source that was made of named ones; else nothing.
+    [[nodiscard]] std::span<const FaceSource> names() const {
+        return names_ == nullptr ? std::span<const FaceSource>() : *names_;
+    }
+    /// Where components of a normal are equal, the first of these counts as the largest one.
+    [[nodiscard]] const std::array<std::uint8_t, 3>& axes() const { return axes_; }
     /// Whether the facets are planes, without corners and edges.
     [[nodiscard]] bool is_half_space() const { return !planes_.empty(); }
     /// Whether all corners are whole, or all planes have the widths that such give them.
@@ -125,6 +131,21 @@ public:
     /// A mesh whose facets have these kinds. \pre one for each facet, and the source is new
     static std::shared_ptr<const Source> of_kinds(std::shared_ptr<const Source> source,
                                                   std::vector<FacetKind> kinds);
+
+    /// What a file has of a source beside its facets.
+    struct Stored {
+        std::uint32_t operand = 0;
+        std::array<std::uint8_t, 3> axes{0, 1, 2};
+        std::vector<FaceSource> names;           ///< by face; empty: the operand's
+        const Source* of_same_serial = nullptr;  ///< null: the source has a serial of its own
+    };
+    /// \pre the source is new; there is a name for each face, or none
+    static std::shared_ptr<const Source> stored(std::shared_ptr<const Source> source,
+                                                Stored stored);
+    /// Serials of sources to come are larger. Past 2^31 nothing changes.
+    static void reserve_serials(std::uint64_t largest);
+    /// As many serials in a row as nothing else has; the first of them.
+    [[nodiscard]] static std::uint64_t take_serials(std::uint64_t count);
 
 private:
     Source() = default;
