@@ -29,15 +29,19 @@ using detail::NativeView;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// One unit more on each side contains all that has a position in the box, and the rounding.
+// Of whole coordinates positions are what they are; else one unit more on each side contains all
+// that has a position in the box.
 Bounds bounds_of(const NativeHeader& h) {
     Bounds out{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     if (h.box.is_empty()) return out;
     const Lattice lattice{h.exponent};
+    const std::int64_t beyond = (h.flags & detail::NativeFlag::whole) != 0 ? 0 : 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const bool has_end = h.box.hi[k] < coordinate_limit && h.box.lo[k] > -coordinate_limit;
-        out.lo[k] = has_end ? lattice.to_double(static_cast<double>(h.box.lo[k] - 1)) : -infinity;
-        out.hi[k] = has_end ? lattice.to_double(static_cast<double>(h.box.hi[k] + 1)) : infinity;
+        out.lo[k] =
+            has_end ? lattice.to_double(static_cast<double>(h.box.lo[k] - beyond)) : -infinity;
+        out.hi[k] =
+            has_end ? lattice.to_double(static_cast<double>(h.box.hi[k] + beyond)) : infinity;
     }
     return out;
 }

@@ -143,6 +143,10 @@ private:
                 view_.fail(Section::Cells, i,
                            is_next ? "a cell without its reference point or all facets"
                                    : "a list that does not begin where the last one ends");
+            const bool is_whole =
+                c.kind == NativeList::AllFacets || c.kind == NativeList::WholeFacets;
+            if (is_whole && records_[c.source].has_planes && !records_[c.source].is_half_space())
+                view_.fail(Section::Cells, i, "a cell that lists planes as facets");
             cells_.push_back(c);
         }
         if (facets != view_.header().count(Section::Facets) ||
@@ -197,8 +201,6 @@ private:
     [[nodiscard]] PolygonList whole_facets(std::size_t number) const {
         const CellRecord& c = cells_[number];
         const Source& source = *sources_[c.source];
-        if (source.is_half_space())
-            view_.fail(Section::Cells, number, "a cell that lists planes by number");
         std::vector<std::uint32_t> facets(c.count);
         NativeCursor from(view_.records(Section::Facets, c.first, c.count));
         for (std::size_t i = 0; i < facets.size(); ++i) {

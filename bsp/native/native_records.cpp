@@ -162,7 +162,7 @@ PolygonRecord polygon_record(const NativeView& view, std::uint64_t number,
         view.fail(Section::Polygons, number, "an impossible polygon");
     // Only the plane of a half-space is a facet as a whole.
     const SourceRecord& s = sources[p.source];
-    if (p.fragment == 0 && s.has_planes && (s.planes.count != 1 || s.box.hi[0] != coordinate_limit))
+    if (p.fragment == 0 && s.has_planes && !s.is_half_space())
         view.fail(Section::Polygons, number, "a plane as a facet");
     p.flipped = (flags & 1U) != 0;
     p.touched = (flags & 2U) != 0;

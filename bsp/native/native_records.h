@@ -26,6 +26,9 @@ struct SourceRecord {
     Part points, triangles, faces, planes, names;
     Box box;
 
+    [[nodiscard]] bool is_half_space() const {
+        return has_planes && planes.count == 1 && box.hi[0] == coordinate_limit;
+    }
     [[nodiscard]] std::uint64_t facets() const {
         return has_planes ? planes.count : triangles.count;
     }

@@ -42,10 +42,8 @@ TEST(NativeCells, TheHeaderOfAnImport) {
     EXPECT_EQ(info.sources, 1U);
     EXPECT_EQ(info.fragments, 0U);
     EXPECT_FALSE(info.is_unbounded);
-    EXPECT_LT(info.bounds.lo[0], 0);
-    EXPECT_GT(info.bounds.lo[0], -1e-2);
-    EXPECT_GT(info.bounds.hi[2], 4);
-    EXPECT_LT(info.bounds.hi[2], 4.01);
+    EXPECT_EQ(info.bounds.lo, (trisect::Point3d{0, 0, 0}));
+    EXPECT_EQ(info.bounds.hi, (trisect::Point3d{4, 4, 4}));
 }
 
 TEST(NativeCells, TheHeaderOfUnboundedSets) {

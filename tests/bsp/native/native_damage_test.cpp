@@ -128,7 +128,8 @@ TEST(NativeDamage, HostileCountsAreRefusedBeforeAnythingIsMade) {
 }
 
 TEST(NativeDamage, TooDeepTreesAreRefused) {
-    const NativeFile file = NativeFile::of_bytes(small_file(), "file");
+    const Solid ball = solids::ball(4, 4);
+    const NativeFile file = NativeFile::of_bytes(native_bytes(ball, {.divided = true}), "file");
     ASSERT_GT(file.info().depth, 1U);
     EXPECT_THROW((void)file.solid({.depth = 1}), trisect::LimitError);
     EXPECT_NO_THROW((void)file.solid({.depth = file.info().depth}));

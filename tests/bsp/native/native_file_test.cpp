@@ -7,15 +7,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
-#include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/cylinder.h>
@@ -26,6 +28,7 @@
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/point.h>
 
 #include "support/mesh_files.h"
 #include "support/random_result.h"
@@ -43,12 +46,69 @@ Solid again(const Solid& solid, const trisect::NativeWriteOptions& options = {})
     return NativeFile::of_bytes(native_bytes(solid, options), "memory").solid();
 }
 
-std::string boundary_text(const Solid& solid) {
+// Nothing for an unbounded one.
+std::optional<trisect::Brep> boundary(const Solid& solid) {
     try {
-        return exact_text(solid.to_brep());
-    } catch (const trisect::UnsupportedError& e) {  // unbounded
-        return e.what();
+        return solid.to_brep();
+    } catch (const trisect::UnsupportedError&) {
+        return std::nullopt;
     }
+}
+
+// A face by its source and the ranks of its corners, however the boundary numbers them.
+using Face = std::tuple<trisect::FaceSource, std::vector<std::vector<std::uint32_t>>>;
+
+struct NumberedBoundary {
+    std::vector<trisect::Point> points;  // in lexicographic order
+    std::vector<Face> faces;             // in order
+};
+
+NumberedBoundary numbered(const trisect::Brep& brep) {
+    NumberedBoundary out;
+    std::vector<std::uint32_t> order;
+    for (const trisect::VertexId v : brep.vertices()) order.push_back(v.index);
+    std::ranges::stable_sort(order, [&brep](std::uint32_t a, std::uint32_t b) {
+        return compare_lexicographic(brep.point(trisect::VertexId(a)),
+                                     brep.point(trisect::VertexId(b))) < 0;
+    });
+    std::vector<std::uint32_t> rank(order.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        const trisect::Point& p = brep.point(trisect::VertexId(order[i]));
+        // Copies of a vertex have one rank.
+        if (out.points.empty() || !(out.points.back() == p)) out.points.push_back(p);
+        rank[order[i]] = static_cast<std::uint32_t>(out.points.size() - 1);
+    }
+    for (const trisect::FaceId f : brep.faces()) {
+        Face face{brep.source(f), {}};
+        for (const trisect::LoopId l : brep.loops(f)) {
+            auto& loop = std::get<1>(face).emplace_back();
+            for (const trisect::HalfedgeId h : brep.halfedges(l))
+                loop.push_back(rank[brep.origin(h).index]);
+            std::vector<std::uint32_t> least = loop;  // begin where that comes first
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                std::ranges::rotate(loop, loop.begin() + 1);
+                least = std::min(least, loop);
+            }
+            loop = least;
+        }
+        std::ranges::sort(std::get<1>(face));
+        out.faces.push_back(face);
+    }
+    std::ranges::sort(out.faces);
+    return out;
+}
+
+// Points may be named by other planes and have other numbers: crossings of imports, by which facets
+// that were not cut yet name theirs, are not in the file.
+void expect_equal_boundaries(const Solid& a, const Solid& b) {
+    const std::optional<trisect::Brep> of_a = boundary(a);
+    const std::optional<trisect::Brep> of_b = boundary(b);
+    ASSERT_EQ(of_a.has_value(), of_b.has_value());
+    if (!of_a) return;
+    const NumberedBoundary first = numbered(*of_a);
+    const NumberedBoundary second = numbered(*of_b);
+    EXPECT_TRUE(first.points == second.points);
+    EXPECT_TRUE(first.faces == second.faces);
 }
 
 // All that a solid shows, of both.
@@ -57,7 +117,7 @@ void expect_equal(const Solid& a, const Solid& b) {
     EXPECT_EQ(a.source_id(), b.source_id());
     EXPECT_EQ(a.is_empty(), b.is_empty());
     EXPECT_EQ(a.is_whole_space(), b.is_whole_space());
-    EXPECT_EQ(boundary_text(a), boundary_text(b));
+    expect_equal_boundaries(a, b);
     trisect::PolygonMesh mesh;
     trisect::MeshMap map;
     try {
@@ -178,7 +238,7 @@ TEST(NativeFile, DividedCells) {
     EXPECT_EQ(native_bytes(read), bytes);
     EXPECT_EQ(native_bytes(read, divided), bytes);
     EXPECT_EQ(read.to_mesh(), ball.to_mesh());
-    EXPECT_EQ(boundary_text(read), boundary_text(ball));
+    expect_equal_boundaries(read, ball);
     EXPECT_EQ(evaluate(read - solids::box(0, 4)).to_mesh(),
               evaluate(ball - solids::box(0, 4)).to_mesh());
 }
@@ -194,8 +254,8 @@ TEST(NativeFile, BytesDoNotDependOnThreads) {
 TEST(NativeFile, OperandsOfFurtherFormulas) {
     const Solid part = carved_plate();
     const Solid tool = solids::ball(2, 3, {6, 5, 3});
-    EXPECT_EQ(boundary_text(evaluate(part - tool)), boundary_text(evaluate(again(part) - tool)));
-    EXPECT_EQ(evaluate(part | tool).to_mesh(), evaluate(again(part) | tool).to_mesh());
+    expect_equal_boundaries(evaluate(part - tool), evaluate(again(part) - tool));
+    expect_equal_boundaries(evaluate(part | tool), evaluate(again(part) | tool));
 }
 
 TEST(NativeFile, FreshNamesAreNobodyElses) {
