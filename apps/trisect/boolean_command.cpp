@@ -106,6 +106,25 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
                   [&] { result.written = write_output_mesh(session, options.output, formatted); });
 }
 
+/// Without rounding: the solid with its tree.
+void deliver_native(Session& session, const BooleanOptions& options, const Solid& solid,
+                    BooleanResult& result) {
+    const ExactMesh exact = session.stage("assemble", [&] { return solid.to_exact_mesh(); });
+    session.stage("describe", [&] {
+        result.description = describe(
+            exact, [&] { return solid.to_brep(); }, description_options(session, options));
+        result.description.lattice = result.report.lattice;
+    });
+    session.stage("write", [&] { write_native_output(session, options.output, solid); });
+}
+
+/// A native file has the boundary itself: nothing is rounded, and no faces are made.
+void require_mesh_output(const BooleanOptions& options) {
+    if (needs_brep(options))
+        throw UsageError(options.output +
+                         ": --faces, --source-faces, --repair and --boundary are for meshes");
+}
+
 Json document_of(const Session& session, const BooleanOptions& options,
                  const std::vector<Operand>& operands, const BooleanResult& result) {
     Json document;
@@ -148,7 +167,9 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
 CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOptions& options) {
     CLI::App* command = app.add_subcommand(name, help);
     command
-        ->add_option("A B", options.inputs, "mesh files or exact boundaries (.exact), two or more")
+        ->add_option(
+            "A B", options.inputs,
+            "mesh files, exact boundaries (.exact) or native files (.trisect), two or more")
         ->required()
         ->expected(2, 1 << 20);
     command->add_option("-o,--output", options.output, "result; '-' is the standard output")
@@ -182,7 +203,9 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
 }
 
 Outcome run_boolean(Session& session, const BooleanOptions& options) {
-    const MeshFormat format = output_format(session, options.output);
+    const bool is_native = has_native_name(options.output);
+    const MeshFormat format = is_native ? MeshFormat::Off : output_format(session, options.output);
+    if (is_native) require_mesh_output(options);
     check_outputs(session, {options.output, options.boundary});
     session.plan(needs_brep(options) && options.certificate ? 6 : 5);
     const std::vector<Operand> operands = session.stage(
@@ -197,7 +220,9 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
         return evaluated;
     });
     note_rounding(session, result.report.lattice, "the operands");
-    if (needs_brep(options)) {
+    if (is_native) {
+        deliver_native(session, options, solid, result);
+    } else if (needs_brep(options)) {
         deliver_brep(session, options, solid, format, result);
     } else {
         deliver_mesh(session, options, solid, format, result);

@@ -5,11 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "commands.h"
 #include "exact_map.h"
 #include "import_notes.h"
 #include "mesh_files.h"
+#include "operand.h"
 #include "output_name.h"
 #include "report_json.h"
 #include "values.h"
@@ -73,20 +76,32 @@ void add_transform_options(CLI::App& command, ConvertOptions& o) {
         ->type_name("X,Y,Z");
 }
 
-}  // namespace
-
-void add_convert_command(CLI::App& app, ConvertOptions& options) {
-    CLI::App* command = app.add_subcommand(
-        "convert",
-        "write another format; transforms apply in the order matrix, scale, rotate, "
-        "translate");
-    command->add_option("A", options.input, "mesh file")->required();
-    command->add_option("-o,--output", options.output, "result; '-' is the standard output")
-        ->required();
-    add_transform_options(*command, options);
+bool has_transform(const ConvertOptions& options) {
+    return !options.matrix.empty() || options.scale || options.rotate || options.translate;
 }
 
-Outcome run_convert(Session& session, const ConvertOptions& options) {
+/// A native file is of a solid: the input must bound one, and keeps what it is to the last bit.
+Outcome run_convert_to_native(Session& session, const ConvertOptions& options) {
+    if (has_transform(options))
+        throw UsageError(options.output + ": transforms are for meshes; convert to one first");
+    check_outputs(session, {options.output});
+    session.plan(2);
+    const std::vector<Operand> read = session.stage("read", [&] {
+        return read_operands(session, std::array{options.input}, OperandOptions());
+    });
+    session.stage("write", [&] { write_native_output(session, options.output, read[0].solid); });
+    Outcome out;
+    out.document["schema"] = "trisect.convert/1";
+    out.document["input"] = options.input;
+    out.document["output"] = options.output;
+    out.document["format"] = "trisect";
+    out.document.update(read[0].facts);
+    out.document.erase("file");
+    out.document["seconds"] = session.seconds();
+    return out;
+}
+
+Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
     const MeshFormat format = output_format(session, options.output);
     check_outputs(session, {options.output});
     const ExactMap map = map_of(options);
@@ -117,6 +132,24 @@ Outcome run_convert(Session& session, const ConvertOptions& options) {
     out.document["written"] = written_json(written);
     out.document["seconds"] = session.seconds();
     return out;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, ConvertOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "convert",
+        "write another format; transforms apply in the order matrix, scale, rotate, "
+        "translate");
+    command->add_option("A", options.input, "mesh file, or native file (.trisect)")->required();
+    command->add_option("-o,--output", options.output, "result; '-' is the standard output")
+        ->required();
+    add_transform_options(*command, options);
+}
+
+Outcome run_convert(Session& session, const ConvertOptions& options) {
+    return has_native_name(options.output) ? run_convert_to_native(session, options)
+                                           : run_mesh_convert(session, options);
 }
 
 }  // namespace trisect::app

@@ -3,6 +3,7 @@
 
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/io/read_mesh.h>
+#include <trisect/bsp/native_file.h>
 
 #include <fmt/format.h>
 
@@ -94,12 +95,20 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 
 bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
 
+bool has_native_name(const std::string& name) { return name.ends_with(".trisect"); }
+
+void write_native_output(Session& session, const std::string& name, const Solid& solid) {
+    session.write_output(name, native_bytes(solid), OutputSafety::Flushed);
+}
+
 PolygonMesh read_input(const Session& session, const std::string& name) {
+    if (has_native_name(name)) return read_native(name).to_mesh();
     const InputFile file = input_file(session, name);
     return read_mesh(file.bytes.view(), file.format, file.name);
 }
 
 RemarkedMesh read_input_with_remarks(const Session& session, const std::string& name) {
+    if (has_native_name(name)) return {read_native(name).to_mesh(), {}};
     const InputFile file = input_file(session, name);
     PolygonMesh mesh = read_mesh(file.bytes.view(), file.format, file.name);
     return {std::move(mesh), file_remarks(file.bytes.view(), file.format, file.name)};

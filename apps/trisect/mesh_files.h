@@ -10,6 +10,7 @@
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/solid.h>
 #include <trisect/kernel/error.h>
 
 #include <span>
@@ -37,6 +38,10 @@ private:
 /// Whether a file holds an exact boundary (brep/io/exact_boundary.h): by the extension, as for
 /// meshes.
 [[nodiscard]] bool has_exact_boundary(const std::string& name);
+
+/// Whether a file holds a solid with its tree (bsp/native_file.h), by the extension.
+[[nodiscard]] bool has_native_name(const std::string& name);
+void write_native_output(Session& session, const std::string& name, const Solid& solid);
 
 /// "-" is the standard input, whose format is that of --format or else shown by its content.
 [[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);

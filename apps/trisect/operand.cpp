@@ -8,6 +8,7 @@
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/native_file.h>
 
 #include "choice.h"
 #include "commands.h"
@@ -55,7 +56,21 @@ struct ReadOperand {
     LatticeMesh mesh;  ///< of a mesh file
     Embedding embedding = Embedding::Assume;
     std::optional<Brep> brep;  ///< of an exact boundary
+    std::optional<NativeFile> native;
 };
+
+ReadOperand read_native_operand(const Session& session, const std::string& name) {
+    if (session.options().lattice)
+        throw UsageError("--lattice is for meshes: " + name + " has a lattice of its own");
+    ReadOperand out;
+    out.note.name = name;
+    out.native = NativeFile::open(name);
+    out.facts["file"] = name;
+    out.facts["triangles"] = out.native->info().triangles;
+    out.facts["lattice"] = lattice_json(LatticeReport{out.native->info().lattice});
+    out.facts["cells"] = out.native->info().cells;
+    return out;
+}
 
 ReadOperand read_exact_operand(const Session& session, const std::string& name,
                                const OperandOptions& options) {
@@ -91,11 +106,13 @@ ReadOperand read_mesh_operand(const Session& session, const std::string& name,
 
 ReadOperand read_operand(const Session& session, const std::string& name,
                          const OperandOptions& options) {
+    if (has_native_name(name)) return read_native_operand(session, name);
     return has_exact_boundary(name) ? read_exact_operand(session, name, options)
                                     : read_mesh_operand(session, name, options);
 }
 
 Solid solid_of(ReadOperand& read, const OperandOptions& options) {
+    if (read.native) return read.native->solid({.names = NativeNames::Fresh});
     if (!read.brep) return Solid::from_lattice_mesh(std::move(read.mesh), read.embedding);
     const Embedding embedding = options.assume_embedded ? Embedding::Assume : Embedding::Check;
     const InsideOut inside_out = options.winding == EvaluateOptions::Winding::NonZero

@@ -24,10 +24,10 @@ StopLimits Session::limits() const {
     return {&supervisor_.stop_flag(), options_.max_work, options_.max_memory};
 }
 
-void Session::write_output(const std::string& name, std::string_view bytes) {
+void Session::write_output(const std::string& name, std::string_view bytes, OutputSafety safety) {
     if (name == "-") return write_descriptor(1, "standard output", bytes);
     supervisor_.watch_output(name);
-    write_file(name, bytes);
+    write_file(name, bytes, safety);
 }
 
 }  // namespace trisect::app

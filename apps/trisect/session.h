@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include <trisect/brep/io/output_file.h>
 #include <trisect/kernel/stop_scope.h>
 
 #include "console.h"
@@ -52,7 +53,8 @@ public:
     [[nodiscard]] const Json& seconds() const { return seconds_; }
 
     /// Writes bytes of a result to the standard output ("-") or completely or not at all to a file.
-    void write_output(const std::string& name, std::string_view bytes);
+    void write_output(const std::string& name, std::string_view bytes,
+                      OutputSafety safety = OutputSafety::Renamed);
 
 private:
     class Timer {

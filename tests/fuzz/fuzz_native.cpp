@@ -48,10 +48,11 @@ std::string changed_file(fuzz::ByteSource& bytes) {
     const Solid b = fuzz::grid_solid(bytes);
     std::string file = native_bytes(bytes.below(2) == 0 ? evaluate(a - b) : evaluate(a | b));
     if (file.size() > 65536) return {};
-    for (std::uint64_t n = bytes.below(4); n > 0; --n) {
-        const std::size_t at = 24 + (bytes.below(256) * 256 + bytes.below(256)) % (file.size() - 48);
+    for (unsigned n = bytes.below(4); n > 0; --n) {
+        const std::size_t at =
+            24 + (bytes.below(256) * 256 + bytes.below(256)) % (file.size() - 48);
         if (bytes.below(2) == 0)
-            file[at] = static_cast<char>(file[at] ^ (1 << bytes.below(8)));
+            file[at] = static_cast<char>(file[at] ^ static_cast<char>(1U << bytes.below(8)));
         else
             put_number(file, at / 8 * 8, static_cast<std::uint64_t>(bytes.between(-3, 20)));
     }
