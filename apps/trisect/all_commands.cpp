@@ -22,6 +22,7 @@ SubCommands all_commands() {
     out.push_back(command_with(add_render_command, run_render));
     out.push_back(command_with(add_tree_command, run_tree));
     out.push_back(command_with(add_interfere_command, run_interfere));
+    out.push_back(command_with(add_clash_command, run_clash));
     out.push_back(command_with(add_mill_command, run_mill));
     return out;
 }

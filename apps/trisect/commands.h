@@ -62,6 +62,9 @@ void add_tree_command(CLI::App& app, TreeOptions& options);
 void add_interfere_command(CLI::App& app, InterfereOptions& options);
 [[nodiscard]] Outcome run_interfere(Session& session, const InterfereOptions& options);
 
+void add_clash_command(CLI::App& app, ClashOptions& options);
+[[nodiscard]] Outcome run_clash(Session& session, const ClashOptions& options);
+
 void add_mill_command(CLI::App& app, MillOptions& options);
 [[nodiscard]] Outcome run_mill(Session& session, const MillOptions& options);
 

@@ -152,6 +152,18 @@ struct InterfereOptions {
     std::optional<double> nearer_than;
 };
 
+struct ClashOptions {
+    std::string manifest;
+    std::vector<std::string> outputs;
+    OperandOptions operands;
+    bool regions = false;
+    bool volumes = false;
+    std::string pictures;  ///< folder; empty: none
+    std::string shard;     ///< "2/8"; empty: all
+    bool resume = false;
+    bool keep_going = false;
+};
+
 struct MillOptions {
     std::string stock;
     std::string tool;

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash_manifest.h"
+
+#include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/io/read_mesh.h>
+#include <trisect/kernel/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string_view>
+
+#include "outcome.h"
+#include "values.h"
+
+namespace trisect::app {
+namespace {
+
+class ManifestReader {
+public:
+    explicit ManifestReader(const std::string& file) : file_(file) {
+        out_.bytes = std::string(read_file(file, ReadLimits().bytes).view());
+    }
+
+    ClashManifest read() {
+        if (file_.ends_with(".csv"))
+            read_csv();
+        else
+            read_json();
+        if (out_.sets.empty()) add_default_set();
+        std::ranges::sort(out_.parts, {}, &ClashPart::id);
+        const auto twice = std::ranges::adjacent_find(out_.parts, {}, &ClashPart::id);
+        if (twice != out_.parts.end())
+            fail(fmt::format("two parts of one identity: '{}'", twice->id));
+        return std::move(out_);
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& what, std::uint64_t line = 0) const {
+        throw InputError(FilePlace{file_, line, line != 0 ? 1U : 0U, 0}, what);
+    }
+
+    // Everything against everything.
+    void add_default_set() {
+        const std::vector<bool> all(out_.groups.size(), true);
+        out_.sets.push_back({"all parts", all, all, ClashMode::Intersection, 0});
+    }
+
+    std::uint32_t group(const std::string& name) {
+        const auto [at, is_new] =
+            groups_.try_emplace(name, static_cast<std::uint32_t>(groups_.size()));
+        if (is_new) out_.groups.push_back(name);
+        return at->second;
+    }
+
+    void add_part(ClashPart part, const std::string& where, std::uint64_t line = 0) {
+        if (part.file.empty()) fail(where + " has no file", line);
+        if (part.name.empty()) part.name = part.file;
+        if (part.id.empty()) part.id = part.name;
+        const std::filesystem::path path(part.file);
+        if (path.is_relative())
+            part.file = (std::filesystem::path(file_).parent_path() / path).string();
+        for (const double v : part.pose)
+            if (!std::isfinite(v)) fail(where + ": a pose with a number that is not finite", line);
+        out_.parts.push_back(std::move(part));
+    }
+
+    static void set_pose(ClashPart& part, const std::vector<double>& numbers) {
+        if (numbers.size() == 12) std::ranges::copy(numbers, part.pose.begin());
+        if (numbers.size() == 3)
+            for (std::size_t i = 0; i < 3; ++i) part.pose[4 * i + 3] = numbers[i];
+    }
+
+    // --- JSON ---
+
+    void read_json() {
+        Json document;
+        try {
+            document = Json::parse(out_.bytes);
+        } catch (const Json::parse_error& e) {
+            throw InputError(FilePlace{file_, 0, 0, e.byte}, "no JSON");
+        }
+        try {
+            std::size_t number = 0;
+            for (const Json& p : document.at("parts")) read_part(p, number++);
+            if (document.contains("sets"))
+                for (const Json& s : document.at("sets")) read_set(s);
+        } catch (const Json::exception& e) {
+            fail(std::string("not as a manifest should be: ") + e.what());
+        }
+    }
+
+    void read_part(const Json& p, std::size_t number) {
+        const std::string where = fmt::format("part {}", number);
+        ClashPart part;
+        part.file = p.at("file").get<std::string>();
+        part.name = p.value("name", std::string());
+        part.id = p.value("id", std::string());
+        part.group = group(p.value("group", std::string()));
+        if (p.contains("pose")) {
+            const auto numbers = p.at("pose").get<std::vector<double>>();
+            if (numbers.size() != 12 && numbers.size() != 3)
+                fail(where + ": a pose has 12 numbers, or 3 of a translation");
+            set_pose(part, numbers);
+        }
+        add_part(std::move(part), where);
+    }
+
+    // A name or a list of names.
+    std::vector<bool> groups_of(const Json& names, const std::string& where) {
+        std::vector<bool> out(out_.groups.size());
+        const Json list = names.is_array() ? names : Json::array({names});
+        for (const Json& name : list) {
+            const auto at = groups_.find(name.get<std::string>());
+            if (at == groups_.end())
+                fail(fmt::format("{}: no part is of group '{}'", where, name.get<std::string>()));
+            out[at->second] = true;
+        }
+        return out;
+    }
+
+    void read_set(const Json& s) {
+        ClashSet set;
+        set.name = s.value("name", fmt::format("set {}", out_.sets.size()));
+        const std::string where = fmt::format("set '{}'", set.name);
+        set.a = groups_of(s.at("a"), where);
+        set.b = s.contains("b") ? groups_of(s.at("b"), where) : set.a;
+        const std::string mode = s.value("mode", std::string("intersection"));
+        const bool allow_touching = s.value("allow_touching", false);
+        if (mode == "collision" && !allow_touching)
+            set.mode = ClashMode::Collision;
+        else if (mode == "clearance")
+            set.mode = ClashMode::Clearance;
+        else if (mode != "intersection" && mode != "collision")
+            fail(fmt::format("{}: mode is intersection, collision or clearance", where));
+        if (set.mode == ClashMode::Clearance) {
+            set.clearance = s.at("clearance").get<double>();
+            if (!(set.clearance >= 0) || !std::isfinite(set.clearance))
+                fail(where + ": a clearance that is no distance");
+        }
+        out_.sets.push_back(std::move(set));
+    }
+
+    // --- CSV ---
+
+    // Fields of a line, where "" in quotes stands for a quote.
+    std::vector<std::string> fields_of(std::string_view line) const {
+        std::vector<std::string> out(1);
+        bool quoted = false;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const char c = line[i];
+            if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+                out.back() += '"';
+                ++i;
+            } else if (c == '"') {
+                quoted = !quoted;
+            } else if (c == ',' && !quoted) {
+                out.emplace_back();
+            } else if (c != '\r') {
+                out.back() += c;
+            }
+        }
+        return out;
+    }
+
+    std::vector<double> numbers_of(std::string_view text, std::uint64_t line) const {
+        std::vector<double> out;
+        while (true) {
+            const std::size_t begin = text.find_first_not_of(" \t;");
+            if (begin == std::string_view::npos) return out;
+            text.remove_prefix(begin);
+            const std::size_t end = std::min(text.find_first_of(" \t;"), text.size());
+            try {
+                out.push_back(parse_number(text.substr(0, end), "pose"));
+            } catch (const UsageError& e) {
+                fail(e.what(), line);
+            }
+            text.remove_prefix(end);
+        }
+    }
+
+    void read_csv() {
+        std::string_view rest = out_.bytes;
+        std::vector<std::string> columns;
+        for (std::uint64_t line = 1; !rest.empty(); ++line) {
+            const std::size_t end = std::min(rest.find('\n'), rest.size());
+            const std::vector<std::string> fields = fields_of(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+            if (fields.size() == 1 && fields[0].empty()) continue;
+            if (columns.empty()) {
+                columns = fields;
+                if (std::ranges::find(columns, "file") == columns.end())
+                    fail("the first line names the columns: file, pose, name, group, id", line);
+                continue;
+            }
+            read_row(columns, fields, line);
+        }
+    }
+
+    void read_row(const std::vector<std::string>& columns, const std::vector<std::string>& fields,
+                  std::uint64_t line) {
+        if (fields.size() > columns.size()) fail("more fields than columns", line);
+        ClashPart part;
+        std::string of_group;
+        for (std::size_t i = 0; i < fields.size(); ++i) {
+            if (columns[i] == "file") part.file = fields[i];
+            if (columns[i] == "name") part.name = fields[i];
+            if (columns[i] == "id") part.id = fields[i];
+            if (columns[i] == "group") of_group = fields[i];
+            if (columns[i] != "pose") continue;
+            const std::vector<double> numbers = numbers_of(fields[i], line);
+            if (!numbers.empty() && numbers.size() != 3 && numbers.size() != 12)
+                fail("a pose has 12 numbers, or 3 of a translation, or none", line);
+            set_pose(part, numbers);
+        }
+        part.group = group(of_group);
+        add_part(std::move(part), "a part", line);
+    }
+
+    std::string file_;
+    std::map<std::string, std::uint32_t> groups_;
+    ClashManifest out_;
+};
+
+}  // namespace
+
+ClashManifest read_clash_manifest(const std::string& file) { return ManifestReader(file).read(); }
+
+}  // namespace trisect::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Reports of clashes: JSON, CSV and BCF 2.1.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "clash_manifest.h"
+#include "outcome.h"
+
+namespace trisect::app {
+
+/// All that a report says: nothing of time, threads or machine.
+struct ClashReport {
+    std::string manifest;          ///< name of the file
+    std::string shard;             ///< "2/8", or empty
+    std::vector<Json> clashes;     ///< in order of pairs, then sets
+    std::vector<Json> missing;     ///< files that could not be used, with their parts
+    std::vector<Json> unanswered;  ///< pairs without an answer
+};
+
+/// The PNG file of a clash, by its place in the report; empty: none.
+using ClashPicture = std::function<std::string(std::size_t)>;
+
+[[nodiscard]] Json clash_json(const ClashManifest& manifest, const ClashReport& report);
+/// A line for each clash.
+[[nodiscard]] std::string clash_csv(const ClashManifest& manifest, const ClashReport& report);
+/// A topic for each clash: a zip file.
+[[nodiscard]] std::string clash_bcf(const ClashManifest& manifest, const ClashReport& report,
+                                    const ClashPicture& picture);
+
+/// What stands in a list of clashes: "pipe 7 and beam 2: overlapping".
+[[nodiscard]] std::string clash_title(const ClashManifest& manifest, const Json& clash);
+
+}  // namespace trisect::app
