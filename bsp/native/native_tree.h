@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// NativeTree: the nodes of a tree in the order of a file, and what they list.
+// NativeTree: nodes of a tree in the order of a file.
 #pragma once
 
 #include <cstdint>
