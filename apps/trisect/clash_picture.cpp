@@ -46,7 +46,8 @@ std::string clash_picture(const Json& clash, const PlacedPart& a, const PlacedPa
     const Solid around = Solid::from_mesh(make_box(at(-1, -0.01, -1), at(1, 1, 1)));
     const Solid first = part_near(a, around);
     const Solid second = part_near(b, around);
-    const Solid both = evaluate(first | second);
+    // What both have is drawn as the second one's.
+    const Solid both = evaluate((first - second) | second);
     std::vector<Point3d> corners = corners_of(both);
     if (corners.empty()) corners.push_back(at(0, 0, 0));
     const View view = View::from_text("0.45,-1,0.6", "z");

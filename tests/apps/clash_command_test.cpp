@@ -50,7 +50,8 @@ protected:
     [[nodiscard]] json report() const { return json::parse(read(path("report.json"))); }
     [[nodiscard]] std::set<std::string> found() const {
         std::set<std::string> out;
-        for (const json& clash : report()["clashes"])
+        const json document = report();
+        for (const json& clash : document["clashes"])
             out.insert(clash["a"].get<std::string>() + "-" + clash["b"].get<std::string>() + " " +
                        clash["relation"].get<std::string>());
         return out;
@@ -87,7 +88,8 @@ TEST_F(ClashCommand, VolumesRegionsAndDistances) {
     json manifest = plant();
     manifest["sets"] = {set_of("clearance")};
     EXPECT_EQ(run(manifest, {"--volumes", "--regions"}).code, 1);
-    for (const json& clash : report()["clashes"]) {
+    const json document = report();
+    for (const json& clash : document["clashes"]) {
         if (clash["b"] == "deep") {
             EXPECT_EQ(clash["volume"]["exact"], "1");
         }
