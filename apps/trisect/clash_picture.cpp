@@ -42,10 +42,13 @@ std::string clash_picture(const Json& clash, const PlacedPart& a, const PlacedPa
     const auto at = [&](double dx, double dy, double dz) {
         return Point3d{point[0] + reach * dx, point[1] + reach * dy, point[2] + reach * dz};
     };
-    // The half that the eye looks into.
-    const Solid around = Solid::from_mesh(make_box(at(-1, -0.01, -1), at(1, 1, 1)));
-    const Solid first = part_near(a, around);
-    const Solid second = part_near(b, around);
+    // The half that the eye looks into. The second part stands out of the cut by a little, since
+    // faces in one plane would be drawn as one.
+    const auto half = [&](double from) {
+        return Solid::from_mesh(make_box(at(-1, from, -1), at(1, 1, 1)));
+    };
+    const Solid first = part_near(a, half(-0.01));
+    const Solid second = part_near(b, half(-0.015));
     // What both have is drawn as the second one's.
     const Solid both = evaluate((first - second) | second);
     std::vector<Point3d> corners = corners_of(both);
