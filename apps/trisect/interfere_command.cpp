@@ -38,12 +38,6 @@ Pose pose_of(const std::array<double, 12>& rows, const std::string& file) {
     }
 }
 
-/// Without self-intersection, under the limits of the command line.
-Solid resolved(const Session& session, const Solid& solid, const OperandOptions& options) {
-    if (options.assume_embedded) return solid;
-    return evaluate(Expression(solid), session.evaluation_options(options));
-}
-
 const char* kind_name(const BoundaryEntity& entity) {
     if (entity.is_vertex()) return "vertex";
     return entity.is_edge() ? "edge" : "face";

@@ -4,8 +4,10 @@
 #include <cstdlib>  // defines __GLIBC__
 
 #ifdef __GLIBC__
+#include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 #include <unistd.h>
 #endif
@@ -30,7 +32,10 @@ void demand_large_pages(int argc, char** argv) {
     if (argc < 3 || !__GLIBC_PREREQ(2, 35)) return;
     if (std::getenv(tunables) != nullptr || !are_on_demand()) return;
     if (::setenv(tunables, "glibc.malloc.hugetlb=1", 0) != 0) return;
-    (void)::execv("/proc/self/exe", argv);  // where that fails, the program goes on
+    // By its own name, under which processes are listed. Where that fails, the program goes on.
+    std::error_code failed;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", failed);
+    if (!failed) (void)::execv(program.c_str(), argv);
 }
 #else
 void demand_large_pages(int /*argc*/, char** /*argv*/) {}

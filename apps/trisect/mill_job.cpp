@@ -75,11 +75,6 @@ double largest_of(const MillJob& job, const PolygonMesh& tool) {
     return largest;
 }
 
-Solid resolved(const Session& session, const Solid& solid, const OperandOptions& options) {
-    if (options.assume_embedded) return solid;
-    return evaluate(Expression(solid), session.evaluation_options(options));
-}
-
 /// The stock on a lattice as fine as the grid.
 Solid stock_on_grid(Session& session, const MillOptions& options, const Operand& operand,
                     int grid) {

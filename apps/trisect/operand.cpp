@@ -8,6 +8,7 @@
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/bsp/native_file.h>
 
 #include "choice.h"
@@ -159,6 +160,11 @@ std::vector<Operand> read_operands(Session& session, std::span<const std::string
     }
     note_imports(session, notes);
     return operands;
+}
+
+Solid resolved(const Session& session, const Solid& solid, const OperandOptions& options) {
+    if (options.assume_embedded) return solid;
+    return evaluate(Expression(solid), session.evaluation_options(options));
 }
 
 std::string embedding_text(const OperandOptions& options) {

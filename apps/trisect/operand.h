@@ -25,6 +25,10 @@ struct Operand {
                                                  std::span<const std::string> names,
                                                  const OperandOptions& options);
 
+/// Without self-intersection, under the limits of the command line.
+[[nodiscard]] Solid resolved(const Session& session, const Solid& solid,
+                             const OperandOptions& options);
+
 /// "self-intersections resolved" or "assumed free of self-intersection".
 [[nodiscard]] std::string embedding_text(const OperandOptions& options);
 
