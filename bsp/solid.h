@@ -32,10 +32,10 @@ enum class Embedding : std::uint8_t {
     /// Taken to be free of self-intersection, with shells nested so that winding numbers are 0
     /// and 1. Only cells where operands meet are resolved.
     Assume,
-    /// May meet itself: resolved in cells where facets do; everywhere if most do, or if NonZero.
+    /// May intersect, overlap or contain itself: every cell is resolved.
     Resolve,
     /// Found out first (brep/validate/embedding.h): as Assume for a boundary that is embedded, else
-    /// as Resolve. Some microseconds a triangle, as facets that meet others are found in any case.
+    /// cells where facets meet others are resolved: all if most do. Some microseconds a triangle.
     Check
 };
 

@@ -85,8 +85,7 @@ Solid stock_on_grid(Session& session, const MillOptions& options, const Operand&
     import.nonplanar = session.options().nonplanar;
     ImportedMesh imported = import_mesh(read_input(session, options.stock), import);
     const bool is_free = options.operands.assume_embedded || is_embedded(imported.mesh);
-    return Solid::from_import(std::move(imported),
-                              is_free ? Embedding::Assume : Embedding::Resolve);
+    return Solid::from_import(std::move(imported), is_free ? Embedding::Assume : Embedding::Check);
 }
 
 MillBody body_of(const Session& session, std::string name, const Operand& operand,

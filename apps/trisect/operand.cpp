@@ -100,7 +100,7 @@ ReadOperand read_mesh_operand(const Session& session, const std::string& name,
     out.facts = facts_of(imported, name, mesh.face_count());
     out.note = {name, std::move(imported.report)};
     const bool is_free = options.assume_embedded || is_embedded(imported.mesh);
-    out.embedding = is_free ? Embedding::Assume : Embedding::Resolve;
+    out.embedding = is_free ? Embedding::Assume : Embedding::Check;
     out.mesh = std::move(imported.mesh);
     return out;
 }

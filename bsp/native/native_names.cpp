@@ -16,8 +16,7 @@ NativeNameMap::NativeNameMap(const NativeView& view, std::span<const SourceRecor
     for (std::uint64_t i = 0; i < view.header().count(NativeSection::Names); ++i)
         add(name_record(view, i).operand);
     std::ranges::sort(operands_);
-    const auto rest = std::ranges::unique(operands_);
-    operands_.erase(rest.begin(), rest.end());
+    operands_.erase(std::unique(operands_.begin(), operands_.end()), operands_.end());
     if (operands_.empty()) return;
     if (fresh)
         first_ = Source::take_serials(operands_.size());

@@ -115,7 +115,7 @@ Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threa
     const bool embedded =
         embedding == Embedding::Assume || (embedding == Embedding::Check && is_embedded(mesh));
     std::optional<std::vector<detail::FacetKind>> kinds;
-    if (!embedded) kinds = detail::facet_kinds(mesh);
+    if (embedding == Embedding::Check && !embedded) kinds = detail::facet_kinds(mesh);
     const Lattice lattice = mesh.lattice;
     auto source = detail::Source::make(std::move(mesh), threads);
     if (kinds) source = detail::Source::of_kinds(std::move(source), *std::move(kinds));

@@ -66,6 +66,7 @@ def prepare():
     for name, text in (('points.txt', '1 1 0.5\n'), ('pose.txt', '1 0 0 0.5  0 1 0 0  0 0 1 0\n'),
                        ('turns.txt', 'screw 1 0 0 1  1.5 1.5 0  0 0 -6\n'),
                        ('motion.txt', 'screw 1 0 0 0  0 0 0  0 0 3\n'),
+                       ('plant.json', '{"parts": [{"file": "shaft.stl", "name": "shaft"}, {"file": "hub.stl", "name": "hub"}]}'),
                        ('program.nc', 'G0 X-5 Y10\nG0 Z-1\nG1 X25 F600\n')):
         pathlib.Path(name).write_text(text, encoding='ascii')
 
