@@ -109,19 +109,20 @@ public:
     [[nodiscard]] std::optional<std::vector<FacetKind>> find() {
         connect();
         mark_fans();
-        if (!mark_contacts() || count_meeting() * worthy_part > kinds_.size()) return std::nullopt;
+        if (!mark_contacts()) return std::nullopt;
         mark_hidden();
         return std::move(kinds_);
     }
 
 private:
-    void meets(std::uint32_t t) { kinds_[t] = FacetKind::Meets; }
+    void meets(std::uint32_t t) {
+        if (kinds_[t] != FacetKind::Meets) ++meeting_;
+        kinds_[t] = FacetKind::Meets;
+    }
+    [[nodiscard]] bool is_worthwhile() const { return meeting_ * worthy_part <= kinds_.size(); }
     [[nodiscard]] Corners corners(std::uint32_t t) const {
         const Triangle& names = mesh_.triangles[t];
         return {mesh_.points[names[0]], mesh_.points[names[1]], mesh_.points[names[2]]};
-    }
-    [[nodiscard]] std::size_t count_meeting() const {
-        return static_cast<std::size_t>(std::ranges::count(kinds_, FacetKind::Meets));
     }
     [[nodiscard]] std::uint32_t corner_at(std::uint32_t t, std::uint32_t vertex) const {
         const Triangle& names = mesh_.triangles[t];
@@ -135,6 +136,7 @@ private:
 
     const PreparedMesh& mesh_;
     std::vector<FacetKind> kinds_;
+    std::size_t meeting_ = 0;
     std::size_t rays_ = 0;
     std::optional<TriangleTree> tree_;
     std::vector<std::array<std::uint32_t, 2>> neighbours_;  // over edges of two triangles
@@ -187,7 +189,7 @@ bool KindFinder::mark_contacts() {
     std::uint64_t pairs = 0;
     tree.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
         check_stop();
-        if (++pairs > limit) return false;
+        if (++pairs > limit || !is_worthwhile()) return false;
         if (kinds_[near[a]] == FacetKind::Meets && kinds_[near[b]] == FacetKind::Meets) return true;
         if (find_contact(mesh_.points, triangles[a], triangles[b]).kind != ContactKind::None) {
             meets(near[a]);
@@ -195,7 +197,7 @@ bool KindFinder::mark_contacts() {
         }
         return true;
     });
-    return pairs <= limit;
+    return pairs <= limit && is_worthwhile();
 }
 
 void KindFinder::mark_hidden() {

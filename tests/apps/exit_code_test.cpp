@@ -219,9 +219,9 @@ TEST_F(ExitCode, AnEvaluationThatTakesTooLongIsFive) {
     const Finished work = trisect({"union", slow, cube_, "-o", out_, "--max-work", "100"});
     EXPECT_EQ(work.code, 5) << work.err;
     EXPECT_NE(work.err.find("work budget"), std::string::npos) << work.err;
-    // Enough to read and to check the inputs.
+    // Enough to read and to check the inputs, and to find the facets that meet others.
     const Finished evaluation =
-        trisect({"union", slow, cube_, "-o", out_, "--max-work", "10000", "--verbose"});
+        trisect({"union", slow, cube_, "-o", out_, "--max-work", "165000", "--verbose"});
     EXPECT_EQ(evaluation.code, 5) << evaluation.err;
     EXPECT_NE(evaluation.err.find("work budget"), std::string::npos) << evaluation.err;
     EXPECT_NE(evaluation.err.find("evaluate"), std::string::npos) << evaluation.err;
