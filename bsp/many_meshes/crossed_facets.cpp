@@ -21,7 +21,7 @@ namespace {
 // Pairs that are compared as they are.
 constexpr std::uint64_t few_pairs = 4000;
 // What a splitting plane may leave of the pairs; once in a row it may leave more.
-constexpr double worthy_part = 0.75;
+constexpr double worthy_part_of_pairs = 0.75;
 
 template <class Items>
 std::uint64_t pairs_of(const Items& items) {
@@ -104,7 +104,7 @@ bool CrossedFacetsFinder::solve(Cell& cell) {
     if (!leave_out(cell)) return true;
     if (pairs_of(cell.items) <= few_pairs) return compare(cell);
     const Splitter splitter = splitter_of(cell);
-    const bool stalls = splitter.part_left > worthy_part;
+    const bool stalls = splitter.part_left > worthy_part_of_pairs;
     if (stalls && cell.stalled) return compare(cell);
     cell.stalled = stalls;
     return with_enough_stack([&] { return divide(cell, splitter); });

@@ -16,9 +16,9 @@ namespace trisect::detail {
 
 namespace {
 
-class Ray {
+class AxisRay {
 public:
-    Ray(const Approximation& from, std::size_t axis, bool up)
+    AxisRay(const Approximation& from, std::size_t axis, bool up)
         : from_(from), axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), up_(up) {}
 
     // Whether the ray may meet the box.
@@ -80,8 +80,8 @@ private:
 };
 
 // Whether a ray goes through the boundary an odd number of times.
-std::optional<bool> passes_odd(const Ray& ray, const OutlinedSolid& solid, CommonSegments& planes,
-                               std::size_t number) {
+std::optional<bool> passes_odd(const AxisRay& ray, const OutlinedSolid& solid,
+                               CommonSegments& planes, std::size_t number) {
     bool odd = false;
     if (!ray.may_meet(solid.box)) return odd;
     for (std::uint32_t f = 0; f < solid.facets.size(); ++f) {
@@ -98,7 +98,7 @@ std::optional<bool> passes_odd(const Ray& ray, const OutlinedSolid& solid, Commo
 std::optional<bool> is_open_at(const Approximation& point, const OutlinedSolid& solid,
                                CommonSegments& planes, std::size_t number) {
     for (std::size_t i = 0; i < 6; ++i) {
-        const Ray ray(point, i / 2, i % 2 == 0);
+        const AxisRay ray(point, i / 2, i % 2 == 0);
         const std::optional<bool> odd = passes_odd(ray, solid, planes, number);
         if (odd) return solid.open_far_out != *odd;
     }
