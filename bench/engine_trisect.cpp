@@ -90,6 +90,7 @@ public:
                 {"filtered_leaves", counters_.filtered_leaves},
                 {"exact_leaves", counters_.exact_leaves},
                 {"halved_cells", counters_.halved_cells},
+                {"embedded_cells", counters_.embedded_cells},
                 {"listed_polygons", counters_.listed_polygons},
                 {"pairs_boxes", counters_.pairs_boxes},
                 {"pairs_cutting", counters_.pairs_cutting},

@@ -88,6 +88,8 @@ struct EvaluateCounters {
     std::uint64_t half_space_cuts = 0;  ///< meshes cut as a whole by parallel half-spaces
     std::uint64_t halved_cells = 0;     ///< with many operands all over: half the formula each
     std::uint64_t divided_cells = 0;    ///< by a splitter
+    /// Cells in which a mesh that meets itself elsewhere became an embedded operand.
+    std::uint64_t embedded_cells = 0;
     std::uint64_t listed_polygons = 0;  ///< sum over all visited cells
     std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves
     std::uint64_t pairs_touching = 0;   ///< of them, pairs in contact

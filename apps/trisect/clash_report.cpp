@@ -11,6 +11,7 @@
 
 #include "clash_answer.h"
 #include "values.h"
+#include "xml_text.h"
 #include "zip_file.h"
 
 namespace trisect::app {
@@ -45,29 +46,6 @@ std::string number_field(const Json& record, const char* key, const char* member
 
 // --- BCF ---
 
-std::string xml(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-        }
-    }
-    return out;
-}
-
 constexpr const char* xml_head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 // Reports are the same whenever they are made.
 constexpr const char* creation = "1970-01-01T00:00:00Z";
@@ -85,7 +63,7 @@ std::string component_xml(const ClashPart& part) {
                         });
     if (is_ifc) return fmt::format("<Component IfcGuid=\"{}\"/>", part.id);
     return fmt::format("<Component><AuthoringToolId>{}</AuthoringToolId></Component>",
-                       xml(part.id));
+                       xml_text(part.id));
 }
 
 std::string viewpoint_xml(const ClashManifest& manifest, const Json& clash) {
@@ -123,7 +101,8 @@ std::string markup_xml(const ClashManifest& manifest, const Json& clash, bool ha
         "<Markup><Topic Guid=\"{}\" TopicType=\"Clash\" TopicStatus=\"Open\"><Title>{}</Title>"
         "<Labels>{}</Labels><CreationDate>{}</CreationDate>"
         "<CreationAuthor>trisect</CreationAuthor><Description>{}</Description></Topic>",
-        id, xml(clash_title(manifest, clash)), xml(text_of(clash, "set")), creation, xml(text));
+        id, xml_text(clash_title(manifest, clash)), xml_text(text_of(clash, "set")), creation,
+        xml_text(text));
     out += fmt::format(
         "<Viewpoints Guid=\"{}\"><Viewpoint>viewpoint.bcfv</Viewpoint>{}</Viewpoints>",
         clash_id({"viewpoint", id}), has_picture ? "<Snapshot>snapshot.png</Snapshot>" : "");

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "values.h"
+#include "xml_text.h"
 
 namespace trisect::app {
 namespace {
@@ -21,26 +22,6 @@ std::string compact(double value) {
     while (text.back() == '0') text.pop_back();
     if (text.back() == '.') text.pop_back();
     return text == "-0" ? "0" : text;
-}
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
 }
 
 std::string attributes(const SvgStyle& style) {
@@ -92,7 +73,7 @@ Svg::Svg(const DrawingFrame& frame, double pixels, double footer, std::string_vi
       height_(frame.height() * scale_),
       footer_(footer),
       numbers_(numbers),
-      title_(escaped(title)) {}
+      title_(xml_text(title)) {}
 
 std::string Svg::point_text(const DrawingPoint& p) const {
     if (numbers_ == Numbers::Precise) return number_text(p[0]) + " " + number_text(p[1]);
@@ -139,7 +120,7 @@ double Svg::legend(double left, std::string_view word, const SvgStyle& style) {
                                   compact(legend_square), attributes(style));
     footer_shapes_ += fmt::format("  <text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n",
                                   compact(left + legend_square + 6),
-                                  compact(top + legend_square - 2), ink.hex(), escaped(word));
+                                  compact(top + legend_square - 2), ink.hex(), xml_text(word));
     return left + legend_square + 6 + legend_letter * static_cast<double>(word.size()) + 18;
 }
 

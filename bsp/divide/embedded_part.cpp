@@ -34,22 +34,23 @@ bool are_all_plain(const PolygonList& leaf, std::span<const FacetKind> kinds) {
 
 }  // namespace
 
-void take_as_embedded(CellOperand& o, StackArena& arena) {
-    if (o.embedded || o.complemented || !(o.is_list || o.node->is_leaf())) return;
+bool take_as_embedded(CellOperand& o, StackArena& arena) {
+    if (o.embedded || o.complemented || !(o.is_list || o.node->is_leaf())) return false;
     const PolygonList& polygons = o.node->polygons();
     const Source* source = polygons.whole_source();
-    if (source == nullptr || source->kinds().empty() || polygons.flipped()) return;
+    if (source == nullptr || source->kinds().empty() || polygons.flipped()) return false;
     const std::span<const FacetKind> kinds = source->kinds();
     if (o.is_list) {
         if (std::ranges::any_of(
                 o.list(), [&](const PackedBox& e) { return kinds[e.id] == FacetKind::Meets; }))
-            return;
+            return false;
         leave_out_hidden(o, kinds, arena);
-    } else if (!are_all_plain(polygons, kinds)) {
-        return;
+    } else if (!are_all_plain(polygons, kinds) || o.node->winding() < 0 || o.node->winding() > 1) {
+        return false;  // what shares the node reads its winding number as that of an embedded one
     }
     o.embedded = true;
     o.winding = o.winding > 0 ? 1 : 0;
+    return true;
 }
 
 }  // namespace trisect::detail

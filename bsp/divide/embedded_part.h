@@ -9,8 +9,9 @@
 namespace trisect::detail {
 
 /// Makes an operand an embedded one where none of its facets in the cell meets others: facets that
-/// do not bound the set leave the list. Does nothing where kinds are not known (facet_kinds.h).
+/// do not bound the set leave the list. False, and nothing is done, where it was one before, some
+/// facet meets others, or kinds are not known (facet_kinds.h).
 /// \pre inside is a positive winding number
-void take_as_embedded(CellOperand& operand, StackArena& arena);
+bool take_as_embedded(CellOperand& operand, StackArena& arena);
 
 }  // namespace trisect::detail

@@ -37,6 +37,7 @@ constexpr std::array counter_members{
     &Counters::half_space_cuts,
     &Counters::halved_cells,
     &Counters::divided_cells,
+    &Counters::embedded_cells,
     &Counters::listed_polygons,
     &Counters::pairs_boxes,
     &Counters::pairs_touching,

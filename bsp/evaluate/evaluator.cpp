@@ -606,7 +606,8 @@ CellRef Worker::solve(CellTask& task) {
     shared_.failure.check();
     stats.depth = std::max(stats.depth, task.depth);
     if (options_.winding == EvaluateOptions::Winding::Positive)
-        for (CellOperand& o : task.operands) take_as_embedded(o, arena_);
+        for (CellOperand& o : task.operands)
+            if (take_as_embedded(o, arena_)) ++stats.embedded_cells;
     prune(task);
     CellView view{task, options_, values_, collects(task)};
     if (auto cell = first_of(constant_rules(), view, task)) return *std::move(cell);

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,6 +21,7 @@
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 #include <trisect/bsp/many_meshes/point_side.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/support/disjoint_sets.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -29,26 +29,6 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
-
-// Vertices that are joined.
-class Joined {
-public:
-    explicit Joined(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0U);
-    }
-    [[nodiscard]] std::uint32_t root(std::uint32_t v) {
-        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-        return v;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::uint32_t> parent_;
-};
 
 }  // namespace
 
@@ -105,7 +85,7 @@ private:
                                   std::span<Stop> stops) const;
     [[nodiscard]] bool mark_ends(std::size_t solid);
     [[nodiscard]] bool mark(std::size_t solid, std::uint32_t vertex, Side side);
-    void join_vertices(std::size_t solid, Joined& joined) const;
+    void join_vertices(std::size_t solid, DisjointSets& joined) const;
     void keep_parts(std::size_t solid);
     void keep_whole(std::size_t solid, std::uint32_t place);
     void keep_cut(std::size_t solid, std::uint32_t place);
@@ -242,7 +222,7 @@ bool CommonPart::Steps::mark_ends(std::size_t solid) {
     return true;
 }
 
-void CommonPart::Steps::join_vertices(std::size_t solid, Joined& joined) const {
+void CommonPart::Steps::join_vertices(std::size_t solid, DisjointSets& joined) const {
     const OutlinedSolid& s = *solids_[solid];
     for (std::uint32_t e = 0; e < s.edges.size(); ++e)
         if (!stops_[solid].has(e)) joined.join(s.edges[e].from, s.edges[e].to);
@@ -254,7 +234,8 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
     std::vector<Side>& sides = sides_[solid];
     sides.assign(s.vertices.size(), Side::Unknown);
     if (!mark_ends(solid)) return false;
-    Joined joined(s.vertices.size());
+    DisjointSets joined;
+    joined.start(s.vertices.size());
     join_vertices(solid, joined);
     for (std::uint32_t v = 0; v < sides.size(); ++v)
         if (sides[v] != Side::Unknown && !mark(solid, joined.root(v), sides[v])) return false;

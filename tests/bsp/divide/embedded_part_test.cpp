@@ -49,13 +49,17 @@ void expect_set(const PolygonMesh& mesh, const Expression& set) {
     };
     EvaluateStats stats;
     (void)trisect::test::evaluate(resolved, {}, &stats);
-    EXPECT_GT(stats.shared_cells, 0U);
+    EXPECT_GT(stats.embedded_cells, 0U);
     const Solid other = solid(ball(0.7, 0.4, 0.9));
     compare(Expression(resolved) | other, Expression(expected) | other);
     compare(Expression(resolved) & other, Expression(expected) & other);
     compare(Expression(resolved) - other, Expression(expected) - other);
     compare(Expression(other) - resolved, Expression(other) - expected);
     compare(Expression(resolved) ^ other, Expression(expected) ^ other);
+    const Solid refined = solid(mesh, Embedding::Check);
+    refined.refine(1);
+    compare(Expression(refined) | other, Expression(expected) | other);
+    compare(Expression(other) - refined, Expression(other) - expected);
     const Solid moved_self = solid(moved(mesh, 0.11, 0.07), Embedding::Check);
     const Solid moved_set = trisect::evaluate(Expression(moved_self));
     compare(Expression(resolved) | moved_self, Expression(expected) | moved_set);
