@@ -42,9 +42,10 @@ public:
         const double r = std::sqrt(std::max(0.0, 1 - z * z));
         return {r * std::cos(t), r * std::sin(t), z};
     }
-    [[nodiscard]] trisect::Point3d on_sphere(double radius) {
-        const double z = 2 * random_.uniform() - 1;
-        const double a = 2 * M_PI * random_.uniform();
+    [[nodiscard]] trisect::Point3d on_sphere(double radius) { return on_sphere(radius, random_); }
+    [[nodiscard]] static trisect::Point3d on_sphere(double radius, shapes::Random& random) {
+        const double z = 2 * random.uniform() - 1;
+        const double a = 2 * M_PI * random.uniform();
         const double r = std::sqrt(1 - z * z);
         return {radius * r * std::cos(a), radius * r * std::sin(a), radius * z};
     }

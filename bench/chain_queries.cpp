@@ -4,7 +4,8 @@
 // results. A cut costs what changes; this is about whether queries do, too.
 //
 //     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined] [--interference]
-//                   [--small-holder] [--rebuild N] [--models] [--bytes] [--memory] [--count N]
+//                   [--small-holder] [--asked] [--repeat N] [--rebuild N] [--models] [--bytes]
+//                   [--memory] [--count N]
 //
 // --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
 // cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
@@ -12,6 +13,10 @@
 // --interference: a holder above each cut, by the solids themselves: first placed anew each time,
 // then by a query that goes on. Above the cut its whole rim is equally near, beside it is not.
 // --small-holder: as large as the ball that cuts, so as many facets are near whatever their number.
+// --asked: first, questions at 100,000 places all over the stock, as to a stock that was used for
+// a while; else each cut is where no question came near before.
+// --repeat: the same chain so many times; of each cut and question the least time counts, so that
+// the worst one is of the work and not of the machine.
 // --rebuild: after every so many cuts also what making everything anew takes, CGAL and FCL beside
 // it; with --models an InterferenceModel, too.
 // --bytes: of facts that each version adds. Walks through the whole tree after each cut, so times
@@ -60,6 +65,8 @@ struct Options {
     int every = 100;
     int rebuild = 0;
     int count = 0;
+    int repeat = 1;
+    bool asked = false;
     bool path = false;
     bool refined = true;
     bool interference = false;
@@ -84,6 +91,10 @@ Options parsed(int argc, char** argv) {
             o.rebuild = number();
         } else if (arg == "--count") {
             o.count = number();
+        } else if (arg == "--repeat") {
+            o.repeat = std::max(1, number());
+        } else if (arg == "--asked") {
+            o.asked = true;
         } else if (arg == "--path") {
             o.path = true;
         } else if (arg == "--unrefined") {
@@ -121,14 +132,16 @@ trisect::EvaluateOptions one_thread() {
 
 class Chain {
 public:
-    explicit Chain(const Options& o)
+    Chain(const Options& o, ChainSeries& series)
         : options_(o),
+          series_(series),
           cuts_(o.level, o.path, o.small_holder),
           stock_(solid_of(cuts_.stock())),
           holder_(solid_of(cuts_.holder())),
           rebuild_(cuts_.holder(), o.models) {
         if (o.refined) stock_.refine();
         (void)BrepIndex(stock_);
+        if (o.asked) ask_all_over();
         if (o.interference) query_.emplace(stock_, holder_);
         if (o.bytes) facts_.emplace(stock_);
     }
@@ -144,10 +157,11 @@ public:
             if (i % options_.every == 0) warm(i);
         }
         counters_.parts.end();
+    }
+
+    void print() {
         Series::print_head();
-        for (const Series* s : {&cut_, &index_, &locate_, &ray_, &nearest_, &interfere_, &aside_,
-                                &distance_, &replace_, &query_relation_, &again_})
-            s->print();
+        for (const Series* s : series_.all()) s->print();
         rebuild_.print();
         print_bytes();
         if (options_.memory) compare_memory();
@@ -175,22 +189,38 @@ private:
                 ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1 + h + 0.1 * r), aside};
     }
 
+    void ask_all_over() {
+        shapes::Random random(2);
+        const BrepIndex index(stock_);
+        for (int i = 0; i < 100'000; ++i) {
+            const Point3d at = ChainCuts::on_sphere(1, random);
+            const ChainQuestions q = questions_at(at);
+            sum_ += static_cast<std::size_t>(index.locate(q.near).location);
+            sum_ += index.first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
+            sum_ += index.distance(q.above) ? 1 : 0;
+            if (!options_.interference) continue;
+            const Point3d on = ChainCuts::times(at, 1 + cuts_.holder_radius());
+            const Pose touching = Pose::from_translation(on);
+            sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, touching).relation);
+        }
+    }
+
     void step(int i) {
         const Point3d at = cuts_.place(i);
         if (options_.memory) places_.push_back(at);
         const PolygonMesh tool = cuts_.ball_at(at);
-        cut_.add(counters_, [&] {
+        series_.cut.add(counters_, [&] {
             stock_ = evaluate(Expression(stock_) - Expression(solid_of(tool)), one_thread());
         });
         const ChainQuestions q = questions_at(at);
         std::optional<BrepIndex> index;
-        index_.add(counters_, [&] { index.emplace(stock_); });
-        locate_.add(counters_,
-                    [&] { sum_ += static_cast<std::size_t>(index->locate(q.near).location); });
-        ray_.add(counters_, [&] {
+        series_.index.add(counters_, [&] { index.emplace(stock_); });
+        series_.locate.add(
+            counters_, [&] { sum_ += static_cast<std::size_t>(index->locate(q.near).location); });
+        series_.ray.add(counters_, [&] {
             sum_ += index->first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
         });
-        nearest_.add(counters_, [&] { sum_ += index->distance(q.above) ? 1 : 0; });
+        series_.nearest.add(counters_, [&] { sum_ += index->distance(q.above) ? 1 : 0; });
         if (options_.interference)
             ask_holder(Pose::from_translation(q.holder), Pose::from_translation(q.aside));
         if (facts_) added_.push_back(static_cast<double>(facts_->added_by(stock_)));
@@ -198,17 +228,17 @@ private:
     }
 
     void ask_holder(const Pose& pose, const Pose& aside) {
-        interfere_.add(counters_, [&] {
+        series_.interfere.add(counters_, [&] {
             sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, pose).relation);
         });
-        aside_.add(counters_,
-                   [&] { sum_ += boundary_distance(stock_, Pose(), holder_, aside) ? 1 : 0; });
-        distance_.add(counters_,
-                      [&] { sum_ += boundary_distance(stock_, Pose(), holder_, pose) ? 1 : 0; });
-        replace_.add(counters_, [&] { query_->replace_a(stock_); });
-        query_relation_.add(
+        series_.aside.add(
+            counters_, [&] { sum_ += boundary_distance(stock_, Pose(), holder_, aside) ? 1 : 0; });
+        series_.rim.add(counters_,
+                        [&] { sum_ += boundary_distance(stock_, Pose(), holder_, pose) ? 1 : 0; });
+        series_.replace.add(counters_, [&] { query_->replace_a(stock_); });
+        series_.query_relation.add(
             counters_, [&] { sum_ += static_cast<std::size_t>(query_->relation(Pose(), pose)); });
-        again_.add(counters_, [&] {
+        series_.interfere_again.add(counters_, [&] {
             sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, pose).relation);
         });
     }
@@ -291,6 +321,7 @@ private:
     }
 
     Options options_;
+    ChainSeries& series_;
     ChainCuts cuts_;
     ChainCounters counters_;
     Solid stock_;
@@ -300,17 +331,6 @@ private:
     std::vector<double> added_;
     std::vector<Point3d> places_;
     std::size_t sum_ = 0;
-    Series cut_{"the cut"};
-    Series index_{"BrepIndex"};
-    Series locate_{"locate"};
-    Series ray_{"first_facet"};
-    Series nearest_{"distance"};
-    Series interfere_{"interfere"};
-    Series aside_{"boundary_distance, beside the cut"};
-    Series distance_{"boundary_distance, the rim equally near"};
-    Series replace_{"query.replace_a"};
-    Series query_relation_{"query.relation after it"};
-    Series again_{"interfere again"};
     std::optional<trisect::InterferenceQuery> query_;
 };
 
@@ -318,7 +338,14 @@ private:
 
 int main(int argc, char** argv) {
     try {
-        Chain(parsed(argc, argv)).run();
+        const Options options = parsed(argc, argv);
+        ChainSeries series;
+        for (int left = options.repeat; left-- > 0;) {
+            for (Series* s : series.all()) s->again();
+            Chain chain(options, series);
+            chain.run();
+            if (left == 0) chain.print();
+        }
         return 0;
     } catch (const std::exception& e) {
         std::fprintf(stderr, "chain_queries: %s\n", e.what());

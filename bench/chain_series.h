@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one question took, cut by cut.
+// What one question took, cut by cut, and the series of all questions of a chain.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <ctime>
@@ -43,7 +45,17 @@ public:
             [&] { counters.parts.count(name_ + " " + std::to_string(counters.cut), work); }));
         instructions_.push_back(counters.instructions.now() - before);
     }
-    void add_milliseconds(double t) { milliseconds_.push_back(t); }
+    void add_milliseconds(double t) {
+        if (next_ == milliseconds_.size()) milliseconds_.push_back(HUGE_VAL);
+        milliseconds_[next_] = std::min(milliseconds_[next_], t);
+        ++next_;
+    }
+    /// The same cuts once more: what is kept of each is the least, as the machine disturbs some
+    /// cuts of every run, and what the work itself takes is in all of them.
+    void again() {
+        next_ = 0;
+        instructions_.clear();
+    }
 
     static void print_head() {
         std::puts(
@@ -71,6 +83,27 @@ private:
         return end == first ? 0 : sum / static_cast<double>(end - first);
     }
     std::string name_;
+    std::size_t next_ = 0;
     std::vector<double> milliseconds_;
     std::vector<double> instructions_;
+};
+
+struct ChainSeries {
+    Series cut{"the cut"};
+    Series index{"BrepIndex"};
+    Series locate{"locate"};
+    Series ray{"first_facet"};
+    Series nearest{"distance"};
+    Series interfere{"interfere"};
+    Series aside{"boundary_distance, beside the cut"};
+    Series rim{"boundary_distance, the rim equally near"};
+    Series replace{"query.replace_a"};
+    Series query_relation{"query.relation after it"};
+    Series interfere_again{"interfere again"};
+
+    [[nodiscard]] std::array<Series*, 11> all() {
+        return {&cut,     &index,          &locate,         &ray,
+                &nearest, &interfere,      &aside,          &rim,
+                &replace, &query_relation, &interfere_again};
+    }
 };

@@ -17,11 +17,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/primitives/hull_faces.h>
+#include <trisect/brep/primitives/hull_facets.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
@@ -138,198 +138,24 @@ private:
     LatticeMesh out_;
 };
 
-// The faces of a hull as outlines, cut into triangles anew. Strips from one end of a face to the
-// other, not fans: where translates of a face overlap in its plane, a triangle of a strip overlaps
-// few of the other strip, a triangle of a fan many of the other fan.
-class FacesOfHull {
-public:
-    FacesOfHull(std::span<const LatticePoint> points, Lattice lattice)
-        : points_(points), names_(points.size(), none) {
-        out_.lattice = lattice;
-    }
-
-    void add(const std::vector<SweptTriangle>& triangles) {
-        const std::vector<std::uint32_t> outline = corners_of(triangles);
-        std::size_t low = 0;
-        std::size_t high = outline.size() - 1;
-        for (bool at_low = true; high - low > 1; at_low = !at_low) {
-            const std::size_t middle = at_low ? low + 1 : high - 1;
-            add_triangle({outline[low], outline[middle], outline[high]});
-            (at_low ? low : high) = middle;
-        }
-        ++face_;
-    }
-    LatticeMesh mesh() { return std::move(out_); }
-
-private:
-    // Counter-clockwise, without those where the outline goes straight on.
-    [[nodiscard]] std::vector<std::uint32_t> corners_of(
-        const std::vector<SweptTriangle>& triangles) const {
-        std::map<std::uint32_t, std::uint32_t> next;
-        const std::vector<SilhouetteEdge> edges = sorted_edges(triangles);
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            const SilhouetteEdge& e = edges[i];
-            if (i + 1 < edges.size() && e.is_twin_of(edges[i + 1]))
-                ++i;
-            else
-                next[e.ascends ? e.low : e.high] = e.ascends ? e.high : e.low;
-        }
-        std::vector<std::uint32_t> out;
-        std::uint32_t at = next.begin()->first;
-        for (std::size_t i = 0; i < next.size(); ++i) {
-            const std::uint32_t middle = next.at(at);
-            if (!are_collinear(points_[at], points_[middle], points_[next.at(middle)]))
-                out.push_back(middle);
-            at = middle;
-        }
-        return out;
-    }
-    void add_triangle(const SweptTriangle& corners) {
-        SweptTriangle t{};
-        for (std::size_t i = 0; i < 3; ++i) {
-            std::uint32_t& name = names_[corners[i]];
-            if (name == none) {
-                name = static_cast<std::uint32_t>(out_.points.size());
-                out_.points.push_back(points_[corners[i]]);
-            }
-            t[i] = name;
-        }
-        out_.triangles.push_back(t);
-        out_.face_of_triangle.push_back(face_);
-    }
-
-    std::span<const LatticePoint> points_;
-    std::vector<std::uint32_t> names_;  // in the result
-    std::uint32_t face_ = 0;
-    LatticeMesh out_;
-};
-
-// Four points that are not in one plane; nothing when all are.
-std::optional<std::array<std::uint32_t, 4>> tetrahedron_of(std::span<const LatticePoint> points) {
-    std::array<std::uint32_t, 4> out{};
-    const auto find = [&](std::size_t k, const auto& condition) {
-        for (std::uint32_t p = 0; p < points.size(); ++p)
-            if (condition(points[p])) {
-                out[k] = p;
-                return true;
-            }
-        return false;
-    };
-    if (points.empty()) return std::nullopt;
-    const LatticePoint& a = points[0];
-    if (!find(1, [&](const LatticePoint& p) { return p != a; })) return std::nullopt;
-    const LatticePoint& b = points[out[1]];
-    if (!find(2, [&](const LatticePoint& p) { return !are_collinear(a, b, p); }))
-        return std::nullopt;
-    const Plane base = Plane::through(a, b, points[out[2]]);
-    if (!find(3, [&](const LatticePoint& p) { return side_of(p, base) != Side::On; }))
-        return std::nullopt;
-    return out;
+// Whether all points lie in one plane.
+bool are_coplanar(std::span<const LatticePoint> points) {
+    if (points.empty()) return true;
+    const LatticePoint& a = points.front();
+    const auto b = std::ranges::find_if(points, [&](const LatticePoint& p) { return p != a; });
+    if (b == points.end()) return true;
+    const auto c = std::ranges::find_if(
+        points, [&](const LatticePoint& p) { return !are_collinear(a, *b, p); });
+    if (c == points.end()) return true;
+    const Plane plane = Plane::through(a, *b, *c);
+    return std::ranges::all_of(
+        points, [&](const LatticePoint& p) { return side_of(p, plane) == Side::On; });
 }
-
-// The beneath-beyond method: each point outside replaces the triangles that it sees by those
-// between it and their outline. A triangle whose plane holds the point is not seen; then no point
-// is on the line of an edge of the outline, which lies in the plane of a triangle that is seen, so
-// no triangle is degenerate.
-class HullMaker {
-public:
-    /// `first`: four points that are not in one plane
-    HullMaker(std::span<const LatticePoint> points, const std::array<std::uint32_t, 4>& first)
-        : points_(points) {
-        start(first);
-        for (std::uint32_t p = 0; p < points.size(); ++p) add_point(p);
-    }
-
-    LatticeMesh mesh(Lattice lattice) const {
-        FacesOfHull faces(points_, lattice);
-        const std::vector<std::uint32_t> names = names_of_faces();
-        std::vector<std::vector<SweptTriangle>> triangles;
-        for (std::size_t f = 0; f < facets_.size(); ++f) {
-            if (names[f] == triangles.size()) triangles.emplace_back();
-            triangles[names[f]].push_back(facets_[f].corners);
-        }
-        for (const auto& face : triangles) faces.add(face);
-        return faces.mesh();
-    }
-
-private:
-    struct Facet {
-        SweptTriangle corners;
-        Plane plane;
-        bool is_seen = false;
-    };
-
-    // For each facet the number of its face, in the order of first facets. Facets of one plane are
-    // connected by edges.
-    [[nodiscard]] std::vector<std::uint32_t> names_of_faces() const {
-        std::vector<SweptTriangle> all;
-        for (const Facet& f : facets_) all.push_back(f.corners);
-        const std::vector<SilhouetteEdge> edges = sorted_edges(all);
-        std::vector<std::uint32_t> root(facets_.size());
-        for (std::uint32_t f = 0; f < root.size(); ++f) root[f] = f;
-        const auto find = [&root](std::uint32_t f) {
-            while (root[f] != f) f = root[f] = root[root[f]];
-            return f;
-        };
-        for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-            const std::uint32_t f = edges[i].triangle;
-            const std::uint32_t g = edges[i + 1].triangle;
-            if (is_same_plane(facets_[f].plane, facets_[g].plane)) root[find(f)] = find(g);
-        }
-        std::vector<std::uint32_t> number(root.size(), none);
-        std::vector<std::uint32_t> names;
-        std::uint32_t next = 0;
-        for (std::uint32_t f = 0; f < root.size(); ++f) {
-            std::uint32_t& n = number[find(f)];
-            if (n == none) n = next++;
-            names.push_back(n);
-        }
-        return names;
-    }
-
-    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        facets_.push_back({{a, b, c}, Plane::through(points_[a], points_[b], points_[c])});
-    }
-    void start(const std::array<std::uint32_t, 4>& first) {
-        const auto [a, b, c, d] = first;
-        const Plane base = Plane::through(points_[a], points_[b], points_[c]);
-        const bool below = side_of(points_[d], base) == Side::Below;
-        const std::uint32_t u = below ? b : c;
-        const std::uint32_t v = below ? c : b;
-        add(a, u, v);
-        add(u, a, d);
-        add(v, u, d);
-        add(a, v, d);
-    }
-    void add_point(std::uint32_t p) {
-        std::vector<SweptTriangle> seen;
-        for (Facet& f : facets_) {
-            f.is_seen = side_of(points_[p], f.plane) == Side::Above;
-            if (f.is_seen) seen.push_back(f.corners);
-        }
-        if (seen.empty()) return;
-        std::erase_if(facets_, [](const Facet& f) { return f.is_seen; });
-        const std::vector<SilhouetteEdge> edges = sorted_edges(seen);
-        for (std::size_t i = 0; i < edges.size(); ++i) {
-            if (i + 1 < edges.size() && edges[i].is_twin_of(edges[i + 1])) {
-                ++i;  // within what is seen
-                continue;
-            }
-            const SilhouetteEdge& e = edges[i];
-            add(e.ascends ? e.low : e.high, e.ascends ? e.high : e.low, p);
-        }
-    }
-
-    std::span<const LatticePoint> points_;
-    std::vector<Facet> facets_;
-};
 
 }  // namespace
 
 LatticeMesh hull_mesh(std::span<const LatticePoint> points, Lattice lattice) {
-    const auto first = tetrahedron_of(points);
-    if (!first) throw UsageError("a convex hull needs points that are not in one plane");
-    return HullMaker(points, *first).mesh(lattice);
+    return detail::mesh_of_faces(points, detail::HullFacets(points).facets(), lattice);
 }
 
 bool is_convex(const LatticeMesh& mesh) {
@@ -363,7 +189,7 @@ LatticeMesh leading_part(const LatticeMesh& convex, const std::array<double, 3>&
             for (const std::uint32_t c : convex.triangles[t]) corners.push_back(convex.points[c]);
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    if (!tetrahedron_of(corners)) return convex;
+    if (are_coplanar(corners)) return convex;
     return hull_mesh(corners, convex.lattice);
 }
 

@@ -13,9 +13,9 @@
 namespace trisect {
 
 /// The convex hull of the points, exact, as triangles; coplanar ones are of one face, which they
-/// divide into a strip. Its points are the corners of the hull. O(n f) for f triangles of the hull:
-/// a second for ten thousand points on a sphere.
-/// \throw UsageError when all points lie in one plane.
+/// divide into a strip. Its points are the corners of the hull. Expected O(n log n), at worst
+/// O(n f) for f triangles of the hull; half a second for 100,000 points on a sphere.
+/// \throw UsageError when all points lie in one plane; CancelledError, LimitError of StopScope.
 [[nodiscard]] LatticeMesh hull_mesh(std::span<const LatticePoint> points, Lattice lattice);
 
 /// Whether no point of the mesh is above the plane of a triangle; exact. For a closed mesh of one
@@ -35,7 +35,7 @@ namespace trisect {
 /// The hull of all triangles of a convex mesh that look along the vector. What a body meets on its
 /// way beyond where it stands, swept(convex, by) less convex, is met by this part of it, which has
 /// about half the triangles. Triangles parallel to the vector do not count. The mesh itself where
-/// all of these lie in one plane. O(n f) as hull_mesh.
+/// all of these lie in one plane. Takes what hull_mesh takes.
 /// \pre as swept(); the vector is not zero
 [[nodiscard]] LatticeMesh leading_part(const LatticeMesh& convex, const std::array<double, 3>& by);
 
