@@ -42,12 +42,18 @@ public:
         const double r = std::sqrt(std::max(0.0, 1 - z * z));
         return {r * std::cos(t), r * std::sin(t), z};
     }
-    [[nodiscard]] trisect::Point3d on_sphere(double radius) { return on_sphere(radius, random_); }
-    [[nodiscard]] static trisect::Point3d on_sphere(double radius, shapes::Random& random) {
-        const double z = 2 * random.uniform() - 1;
-        const double a = 2 * M_PI * random.uniform();
+    [[nodiscard]] trisect::Point3d on_sphere(double radius) {
+        const double z = 2 * random_.uniform() - 1;
+        const double a = 2 * M_PI * random_.uniform();
         const double r = std::sqrt(1 - z * z);
         return {radius * r * std::cos(a), radius * r * std::sin(a), radius * z};
+    }
+    /// The i-th of so many points that cover the unit sphere evenly.
+    [[nodiscard]] static trisect::Point3d on_spiral(int i, int count) {
+        const double z = 1 - (2.0 * i + 1) / count;
+        const double a = 2.399963229728653 * i;  // the golden angle
+        const double r = std::sqrt(1 - z * z);
+        return {r * std::cos(a), r * std::sin(a), z};
     }
     [[nodiscard]] trisect::Point3d in_cube() {
         trisect::Point3d p{};

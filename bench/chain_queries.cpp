@@ -13,7 +13,7 @@
 // --interference: a holder above each cut, by the solids themselves: first placed anew each time,
 // then by a query that goes on. Above the cut its whole rim is equally near, beside it is not.
 // --small-holder: as large as the ball that cuts, so as many facets are near whatever their number.
-// --asked: first, questions at 100,000 places all over the stock, as to a stock that was used for
+// --asked: first, questions at 20,000 places all over the stock, as to a stock that was used for
 // a while; else each cut is where no question came near before.
 // --repeat: the same chain so many times; of each cut and question the least time counts, so that
 // the worst one is of the work and not of the machine.
@@ -190,10 +190,10 @@ private:
     }
 
     void ask_all_over() {
-        shapes::Random random(2);
         const BrepIndex index(stock_);
-        for (int i = 0; i < 100'000; ++i) {
-            const Point3d at = ChainCuts::on_sphere(1, random);
+        constexpr int count = 20'000;
+        for (int i = 0; i < count; ++i) {
+            const Point3d at = ChainCuts::on_spiral(i, count);
             const ChainQuestions q = questions_at(at);
             sum_ += static_cast<std::size_t>(index.locate(q.near).location);
             sum_ += index.first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;

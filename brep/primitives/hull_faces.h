@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faces of a convex hull, made of the facets that share a plane.
+// Faces of a convex hull, of facets that share a plane.
 #pragma once
 
 #include <span>
