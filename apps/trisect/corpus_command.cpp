@@ -16,6 +16,9 @@
 
 #include <fmt/format.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -179,12 +182,21 @@ Json scored(const CorpusOptions& options, const fs::path& file, const EvaluateOp
     }
 }
 
+// A shell makes the file before the command begins: `trisect corpus DIR ... > DIR/scores.json`.
+bool is_standard_output(const fs::path& path) {
+    struct stat file {};
+    struct stat output {};
+    return ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &output) == 0 &&
+           file.st_dev == output.st_dev && file.st_ino == output.st_ino;
+}
+
 Outcome score_corpus(Session& session, const CorpusOptions& options) {
     session.plan(1);
     std::vector<fs::path> files;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(options.folder, error))
-        if (entry.path().extension() == ".json") files.push_back(entry.path());
+        if (entry.path().extension() == ".json" && !is_standard_output(entry.path()))
+            files.push_back(entry.path());
     if (error) throw InputError(FilePlace{options.folder, 0, 0, 0}, error.message());
     std::sort(files.begin(), files.end());
     Outcome out;

@@ -43,6 +43,15 @@ TEST_F(CorpusCommand, BoxesThatTouchInEveryWay) {
     EXPECT_EQ(score.json()["counts"]["equal"], 48);
 }
 
+TEST_F(CorpusCommand, ScoresThatGoIntoItsFolderAreNoCase) {
+    ASSERT_EQ(scored("twins").code, 0);
+    const std::string folder = path("corpus");
+    const Finished score = trisect({"corpus", folder, "--results", folder, "--json"},
+                                   {.output_file = folder + "/scores.json"});
+    EXPECT_EQ(score.code, 0) << score.err;
+    EXPECT_EQ(score.json()["schema"], "trisect.corpus_score/1");
+}
+
 TEST_F(CorpusCommand, BoxesThatDifferByOneUlp) {
     const Finished score = scored("twins");
     EXPECT_EQ(score.code, 0) << score.out;

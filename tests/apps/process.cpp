@@ -26,6 +26,12 @@ File temporary_file() {
     return file;
 }
 
+File named_file(const std::string& path) {
+    File file(std::fopen(path.c_str(), "w+"), &std::fclose);
+    if (!file) throw std::runtime_error("cannot make " + path);
+    return file;
+}
+
 std::string content_of(const File& file) {
     std::string text;
     std::rewind(file.get());
@@ -86,7 +92,8 @@ nlohmann::json Finished::json() const {
 
 Finished trisect(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
     const File in = temporary_file();
-    const File out = temporary_file();
+    const File out =
+        surroundings.output_file.empty() ? temporary_file() : named_file(surroundings.output_file);
     const File err = temporary_file();
     std::fwrite(surroundings.input.data(), 1, surroundings.input.size(), in.get());
     std::rewind(in.get());

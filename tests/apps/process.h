@@ -21,8 +21,10 @@ struct Finished {
 };
 
 struct Surroundings {
-    std::string input;                                             ///< standard input
-    std::vector<std::pair<std::string, std::string>> environment;  ///< variables to set
+    std::string input{};                                             ///< standard input
+    std::vector<std::pair<std::string, std::string>> environment{};  ///< variables to set
+    /// The standard output goes to a new file of this name, if there is one.
+    std::string output_file{};
 };
 
 /// Runs `trisect arguments...` and waits for it.
