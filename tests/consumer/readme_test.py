@@ -3,7 +3,8 @@
 """readme_test.py ROOT [python=PROGRAM] [command=PROGRAM] [cxx=COMPILER] [cc=COMPILER]
 
 Runs in the working directory what ROOT's README.md shows: the blocks of its first screen, and every line of the section
-about the command, with files made here; and the first program of docs/python.md and of docs/c.md. What is named runs.
+about the command, with files made here; the first program of docs/python.md and of docs/c.md; and the tutorial of
+the site. What is named runs.
 Programs in C++ and C are compiled with what pkg-config says, so PKG_CONFIG_PATH may be needed.
 """
 import math
@@ -102,6 +103,11 @@ def blocks_of(path):
     return found
 
 
+def tutorial_of(path):
+    """Blocks that go on from one to the next."""
+    return ''.join(text for language, text in BLOCK.findall(path.read_text(encoding='utf-8')) if language == 'python')
+
+
 def main(root, programs):
     readme = (root / 'README.md').read_text(encoding='utf-8')
     shown = blocks_of(root / 'README.md')
@@ -110,7 +116,8 @@ def main(root, programs):
     prepare()
     count = 0
     if 'python' in programs:
-        for text in (shown['python'], blocks_of(root / 'docs' / 'python.md')['python']):
+        for text in (shown['python'], blocks_of(root / 'docs' / 'python.md')['python'],
+                     tutorial_of(root / 'docs' / 'site' / 'tutorial.md')):
             run([programs['python'], '-c', text])
             count += len(text.splitlines())
     if 'command' in programs:
