@@ -4,21 +4,15 @@
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_overlap.h>
-
-#include <fmt/format.h>
+#include <trisect/kernel/error.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
+
+#include "clash_id.h"
 
 namespace trisect::app {
 namespace {
-
-// FNV-1a.
-std::uint64_t hashed(std::uint64_t hash, std::string_view text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    return (hash ^ 0xffU) * 0x100000001b3U;  // no byte of UTF-8
-}
 
 Json point_json(const Point3d& p) { return Json::array({p[0], p[1], p[2]}); }
 
@@ -112,37 +106,35 @@ private:
 
 }  // namespace
 
-std::string clash_id(std::initializer_list<std::string> texts) {
-    std::uint64_t high = 0xcbf29ce484222325U;
-    std::uint64_t low = 0x9ae16a3b2f90404fU;
-    for (const std::string& text : texts) {
-        high = hashed(high, text);
-        low = hashed(low, text);
-    }
-    high = (high & ~std::uint64_t{0xf000}) | 0x8000U;                    // version 8
-    low = (low & ~(std::uint64_t{3} << 62)) | (std::uint64_t{2} << 62);  // the usual variant
-    return fmt::format("{:08x}-{:04x}-{:04x}-{:04x}-{:012x}", high >> 32, (high >> 16) & 0xffffU,
-                       high & 0xffffU, low >> 48, low & 0xffffffffffffU);
-}
-
-std::vector<Json> clash_records(const ClashManifest& manifest, const ClashCandidate& pair,
-                                const PlacedPart& a, const PlacedPart& b,
-                                const ClashQuestions& questions) {
+std::vector<Json> clash_records(std::span<const ClashSet> sets, const PlacedPart& a,
+                                const PlacedPart& b, const ClashQuestions& questions) {
     PairAnswer answer(a, b, questions);
-    const ClashPart& first = manifest.parts[pair.a];
-    const ClashPart& second = manifest.parts[pair.b];
     std::vector<Json> out;
-    for (const ClashSet& set : manifest.sets) {
-        if (!set.has(first.group, second.group) || !answer.is_clash(set)) continue;
+    for (const ClashSet& set : sets) {
+        if (!set.has(a.group, b.group) || !answer.is_clash(set)) continue;
         Json record;
-        record["id"] = clash_id({set.name, first.id, second.id});
+        record["id"] = clash_id({set.name, a.id, b.id});
         record["set"] = set.name;
-        record["a"] = first.id;
-        record["b"] = second.id;
+        record["a"] = a.id;
+        record["b"] = b.id;
         record.update(answer.facts());
         out.push_back(std::move(record));
     }
     return out;
+}
+
+std::vector<Json> clash_records_or_error(std::span<const ClashSet> sets, const PlacedPart& a,
+                                         const PlacedPart& b, const ClashQuestions& questions) {
+    try {
+        return clash_records(sets, a, b, questions);
+    } catch (const Error& e) {
+        if (e.code() == ErrorCode::Cancelled || e.code() == ErrorCode::Internal) throw;
+        Json record;
+        record["a"] = a.id;
+        record["b"] = b.id;
+        record["error"] = e.what();
+        return {record};
+    }
 }
 
 }  // namespace trisect::app

@@ -4,16 +4,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include <trisect/brep/measure.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/kernel/pose.h>
 
 #include "clash_manifest.h"
-#include "clash_pairs.h"
 #include "outcome.h"
 
 namespace trisect::app {
@@ -29,6 +28,8 @@ struct PlacedPart {
     InterferenceModel model;  ///< shared by all parts of one file
     Pose pose;
     Bounds box;  ///< in the world
+    std::string id;
+    std::uint32_t group = 0;
 };
 
 /// A record for each set in which the pair is a clash, in the order of the sets:
@@ -40,11 +41,12 @@ struct PlacedPart {
 ///     distance lower, upper, on_a, on_b: for clearances of parts that are apart
 ///     volume   value, exact (a fraction), is_exact: of overlaps, on demand
 ///     regions  dimension and loops of points: of boundaries that meet, on demand
-[[nodiscard]] std::vector<Json> clash_records(const ClashManifest& manifest,
-                                              const ClashCandidate& pair, const PlacedPart& a,
+[[nodiscard]] std::vector<Json> clash_records(std::span<const ClashSet> sets, const PlacedPart& a,
                                               const PlacedPart& b, const ClashQuestions& questions);
 
-/// A name-based UUID of version 8 of some texts.
-[[nodiscard]] std::string clash_id(std::initializer_list<std::string> texts);
+/// The same; a pair without an answer has one record, of a, b and error.
+[[nodiscard]] std::vector<Json> clash_records_or_error(std::span<const ClashSet> sets,
+                                                       const PlacedPart& a, const PlacedPart& b,
+                                                       const ClashQuestions& questions);
 
 }  // namespace trisect::app

@@ -4,137 +4,36 @@
 // however many parts have it. Pairs whose boxes meet are put in order and decided in pieces of a
 // fixed size; a finished piece is written down, and a run that was killed goes on after it. So
 // reports depend neither on threads nor on interruptions.
-#include <trisect/bsp/solid_measure.h>
+#include "clash_command.h"
+
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <map>
 #include <optional>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "clash_answer.h"
+#include "clash_files.h"
+#include "clash_id.h"
 #include "clash_journal.h"
 #include "clash_manifest.h"
+#include "clash_merge.h"
+#include "clash_output.h"
 #include "clash_pairs.h"
 #include "clash_picture.h"
 #include "clash_report.h"
+#include "clash_tiles.h"
 #include "commands.h"
-#include "operand.h"
-#include "output_name.h"
 #include "parallel_each.h"
-#include "values.h"
 
 namespace trisect::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t piece_size = 1024;  // pairs; journals of other sizes would not fit
-
-enum class ReportFormat : std::uint8_t { Json, Csv, Bcf };
-
-ReportFormat format_of(const std::string& name) {
-    if (name.ends_with(".json")) return ReportFormat::Json;
-    if (name.ends_with(".csv")) return ReportFormat::Csv;
-    if (name.ends_with(".bcf") || name.ends_with(".bcfzip")) return ReportFormat::Bcf;
-    throw UsageError(name + ": a report is .json, .csv, .bcf or .bcfzip");
-}
-
-struct Shard {
-    std::size_t number = 0;
-    std::size_t count = 1;
-};
-
-Shard parse_shard(const std::string& text) {
-    if (text.empty()) return {};
-    const std::size_t slash = text.find('/');
-    if (slash == std::string::npos) throw UsageError("--shard: I/N, such as 1/4");
-    const std::int64_t number = parse_integer(text.substr(0, slash), "--shard");
-    const std::int64_t count = parse_integer(text.substr(slash + 1), "--shard");
-    if (number < 1 || count < number) throw UsageError("--shard: I/N with I from 1 to N");
-    return {static_cast<std::size_t>(number - 1), static_cast<std::size_t>(count)};
-}
-
-/// The files of all parts, each once, and what became of them.
-class ClashFiles {
-public:
-    ClashFiles(const ClashManifest& manifest, bool keep_going) : keep_going_(keep_going) {
-        for (const ClashPart& part : manifest.parts) files_[part.file].parts.push_back(part.id);
-    }
-
-    void read(Session& session, const OperandOptions& options) {
-        std::vector<std::string> names;
-        for (const auto& [name, file] : files_) names.push_back(name);
-        if (keep_going_) {
-            for (const std::string& name : names) read_one(session, options, name);
-            return;
-        }
-        std::vector<Operand> read = read_operands(session, names, options);
-        for (std::size_t i = 0; i < names.size(); ++i)
-            files_.at(names[i]).model = InterferenceModel(read[i].solid);
-    }
-    /// Boxes, and all that questions need.
-    void prepare(const Session& session) {
-        std::vector<File*> all;
-        for (auto& [name, file] : files_) all.push_back(&file);
-        for_each_in_parallel(all.size(), session.limits(), [&](std::size_t i) {
-            if (all[i]->failure.is_null()) all[i]->box = bounds(all[i]->model.solid());
-        });
-    }
-
-    struct File {
-        InterferenceModel model;
-        std::optional<Bounds> box;
-        std::vector<std::string> parts;
-        Json failure;
-    };
-    [[nodiscard]] const File& of(const ClashPart& part) const { return files_.at(part.file); }
-    [[nodiscard]] std::size_t size() const { return files_.size(); }
-
-    [[nodiscard]] std::vector<Json> missing() const {
-        std::vector<Json> out;
-        for (const auto& [name, file] : files_) {
-            if (file.failure.is_null()) continue;
-            Json record;
-            record["file"] = name;
-            record["error"] = file.failure;
-            record["parts"] = file.parts;
-            out.push_back(std::move(record));
-        }
-        return out;
-    }
-    /// Of names, sizes and times.
-    [[nodiscard]] std::string state() const {
-        std::string out;
-        for (const auto& [name, file] : files_) {
-            std::error_code error;
-            const auto size = fs::file_size(name, error);
-            const auto time = fs::last_write_time(name, error).time_since_epoch().count();
-            out += fmt::format("{}|{}|{}\n", name, error ? 0 : size, error ? 0 : time);
-        }
-        return out;
-    }
-
-private:
-    void read_one(Session& session, const OperandOptions& options, const std::string& name) {
-        try {
-            const std::vector<Operand> read = read_operands(session, std::span(&name, 1), options);
-            files_.at(name).model = InterferenceModel(read[0].solid);
-        } catch (const Error& e) {
-            if (e.code() == ErrorCode::Cancelled || e.code() == ErrorCode::Internal) throw;
-            files_.at(name).failure = e.what();
-            session.note(fmt::format("left out: {}", e.what()));
-        }
-    }
-
-    bool keep_going_;
-    std::map<std::string, File> files_;
-};
 
 class ClashRun {
 public:
@@ -143,66 +42,99 @@ public:
           options_(options),
           shard_(parse_shard(options.shard)),
           manifest_(read_clash_manifest(options.manifest)),
-          files_(manifest_, options.keep_going) {
+          files_(manifest_.files.size()),
+          models_(manifest_.files.size()) {
         report_.manifest = options.manifest;
         report_.shard = options.shard;
+        report_.run = clash_run_json(manifest_, options);
     }
 
     ClashReport& find() {
-        session_.stage("read", [&] { files_.read(session_, options_.operands); });
-        session_.stage("prepare", [&] {
-            files_.prepare(session_);
-            place_parts();
-        });
+        session_.stage("read", [&] { read_files(); });
+        session_.stage("prepare", [&] { place_parts(); });
         session_.stage("boxes", [&] { find_candidates(); });
         session_.interruptible_stage("pairs", [&] {
             answer_all();
             return 0;
         });
-        report_.missing = files_.missing();
+        report_.missing = missing_files(manifest_, files_);
         return report_;
     }
     void write() {
         session_.stage("write", [&] {
-            for (const std::string& name : options_.outputs) write_one(name);
-            write_pictures();
+            write_clash_outputs(session_, options_, manifest_, report_, [&](std::size_t i) {
+                const Json& clash = report_.clashes[i];
+                return clash_picture(clash, part_of(clash.at("a")), part_of(clash.at("b")));
+            });
         });
         if (journal_) journal_->remove();
     }
     [[nodiscard]] const ClashManifest& manifest() const { return manifest_; }
     [[nodiscard]] std::size_t candidates() const { return candidates_.size(); }
-    [[nodiscard]] std::size_t files() const { return files_.size(); }
 
 private:
-    void place_parts() {
-        boxes_.resize(manifest_.parts.size());
-        poses_.resize(manifest_.parts.size());
-        for_each_in_parallel(boxes_.size(), session_.limits(), [&](std::size_t i) {
-            const ClashPart& part = manifest_.parts[i];
+    void read_files() {
+        for_each_in_parallel(files_.size(), session_.limits(), [&](std::size_t i) {
             try {
-                poses_[i] = Pose::from_doubles(part.pose);
-            } catch (const UsageError& e) {
-                throw InputError(FilePlace{options_.manifest, 0, 0, 0},
-                                 fmt::format("part '{}': {}", part.id, e.what()));
+                ClashFileModel read =
+                    read_clash_file(session_, options_.operands, manifest_.files[i]);
+                files_[i] = std::move(read.file);
+                models_[i] = std::move(read.model);
+            } catch (const Error& e) {
+                if (!is_left_out(e, options_)) throw;
+                files_[i].failure = e.what();
             }
-            if (const auto& box = files_.of(part).box) boxes_[i] = posed_box(*box, part.pose);
         });
+        for (const ClashFile& file : files_)
+            if (!file.failure.empty()) session_.note("left out: " + file.failure);
+    }
+
+    void place_parts() {
+        poses_.resize(manifest_.parts.size());
+        for_each_in_parallel(poses_.size(), session_.limits(), [&](std::size_t i) {
+            const ClashPart& part = manifest_.parts[i];
+            poses_[i] = clash_pose(options_.manifest, part.id, part.pose);
+        });
+        boxes_ = clash_boxes(manifest_, files_);
+    }
+
+    void find_candidates() {
+        const ClashLimits limits(manifest_.sets, manifest_.groups.size());
+        const ClashTiles tiles(boxes_, limits);
+        const detail::ParallelParts parts(tiles.size(), 0, 16);
+        std::vector<std::vector<ClashCandidate>> found(parts.count());
+        parts.for_each([&](std::size_t part, std::size_t tile, std::size_t end) {
+            std::vector<ClashBox> here;
+            for (; tile < end; ++tile) {
+                here.clear();
+                for (const std::uint32_t i : tiles.boxes(tile)) here.push_back(boxes_[i]);
+                add_candidates(limits, here, tiles.cell(tile), found[part]);
+            }
+        });
+        for (const auto& some : found)
+            candidates_.insert(candidates_.end(), some.begin(), some.end());
+        std::ranges::sort(candidates_);
     }
 
     // A shard has every so many of the pieces.
-    void find_candidates() {
-        candidates_ = clash_candidates(manifest_, boxes_);
-        pieces_ = (candidates_.size() + piece_size - 1) / piece_size;
-    }
-
     void answer_all() {
-        journal_.emplace(options_.outputs.front() + ".journal", run_key(), options_.resume);
-        for (std::size_t piece = shard_.number; piece < pieces_; piece += shard_.count) {
+        const std::string name = options_.outputs.front() + ".journal";
+        const std::string key = clash_run_key(manifest_, options_);
+        FinishedPieces done;
+        if (options_.resume) done = read_clash_journal(name, key);
+        journal_.emplace(name, key, done);
+        const std::size_t pieces = (candidates_.size() + piece_size - 1) / piece_size;
+        for (std::size_t piece = shard_.number; piece < pieces; piece += shard_.count) {
             session_.supervisor().enter_stage(
                 fmt::format("pairs {}/{}", piece * piece_size, candidates_.size()), 3, 5);
-            if (journal_->done(piece) == nullptr) journal_->add(piece, answers_of(piece));
-            for (const Json& record : *journal_->done(piece))
-                (record.contains("error") ? report_.unanswered : report_.clashes).push_back(record);
+            if (!done.contains(piece)) {
+                done[piece] = answers_of(piece);
+                journal_->add(piece, done[piece]);
+            }
+            for (Json& record : done[piece])
+                (record.contains("error") ? report_.unanswered : report_.clashes)
+                    .push_back(std::move(record));
+            done.erase(piece);
         }
     }
 
@@ -211,102 +143,79 @@ private:
         const std::size_t n = std::min(piece_size, candidates_.size() - begin);
         std::vector<std::vector<Json>> records(n);
         for_each_in_parallel(n, session_.limits(), [&](std::size_t i) {
-            records[i] = answers_of(candidates_[begin + i]);
+            const ClashCandidate& pair = candidates_[begin + i];
+            records[i] = (options_.keep_going ? clash_records_or_error : clash_records)(
+                manifest_.sets, placed(pair.a), placed(pair.b),
+                {options_.regions, options_.volumes});
         });
         Json out = Json::array();
         for (auto& some : records)
             for (Json& record : some) out.push_back(std::move(record));
         return out;
     }
-    [[nodiscard]] std::vector<Json> answers_of(const ClashCandidate& pair) const {
-        try {
-            return clash_records(manifest_, pair, placed(pair.a), placed(pair.b),
-                                 {options_.regions, options_.volumes});
-        } catch (const Error& e) {
-            if (!options_.keep_going || e.code() == ErrorCode::Cancelled ||
-                e.code() == ErrorCode::Internal)
-                throw;
-            Json record;
-            record["a"] = manifest_.parts[pair.a].id;
-            record["b"] = manifest_.parts[pair.b].id;
-            record["error"] = e.what();
-            return {record};
-        }
-    }
-    [[nodiscard]] PlacedPart placed(std::uint32_t part) const {
-        return {files_.of(manifest_.parts[part]).model, poses_[part], *boxes_[part]};
-    }
 
-    [[nodiscard]] std::string run_key() const {
-        return clash_id({manifest_.bytes, files_.state(), options_.shard,
-                         fmt::format("{} {} {} {} {}", options_.regions, options_.volumes,
-                                     options_.keep_going, options_.operands.assume_embedded,
-                                     static_cast<int>(options_.operands.winding))});
+    [[nodiscard]] PlacedPart placed(std::uint32_t number) const {
+        const ClashPart& part = manifest_.parts[number];
+        return {models_[part.file], poses_[number],
+                posed_box(files_[part.file].box.value(), part.pose), part.id, part.group};
     }
-
-    void write_one(const std::string& name) {
-        switch (format_of(name)) {
-            case ReportFormat::Json:
-                session_.write_output(name,
-                                      clash_json(manifest_, report_)
-                                              .dump(1, ' ', false, Json::error_handler_t::replace) +
-                                          '\n');
-                break;
-            case ReportFormat::Csv:
-                session_.write_output(name, clash_csv(manifest_, report_));
-                break;
-            case ReportFormat::Bcf:
-                session_.write_output(name, clash_bcf(manifest_, report_, [&](std::size_t i) {
-                                          return options_.pictures.empty() ? "" : picture(i);
-                                      }));
-        }
-    }
-    void write_pictures() {
-        if (options_.pictures.empty()) return;
-        fs::create_directories(options_.pictures);
-        for (std::size_t i = 0; i < report_.clashes.size(); ++i) {
-            const std::string id = report_.clashes[i].at("id").get<std::string>();
-            session_.write_output((fs::path(options_.pictures) / (id + ".png")).string(),
-                                  picture(i));
-        }
-    }
-    [[nodiscard]] std::string picture(std::size_t clash) const {
-        const Json& record = report_.clashes[clash];
-        return clash_picture(record, placed(number_of(record.at("a"))),
-                             placed(number_of(record.at("b"))));
-    }
-    [[nodiscard]] std::uint32_t number_of(const Json& id) const {
-        const auto at = std::ranges::lower_bound(manifest_.parts, id.get_ref<const std::string&>(),
-                                                 {}, &ClashPart::id);
-        return static_cast<std::uint32_t>(at - manifest_.parts.begin());
+    [[nodiscard]] PlacedPart part_of(const Json& id) const {
+        return placed(part_number(manifest_, id.get_ref<const std::string&>()));
     }
 
     Session& session_;
     const ClashOptions& options_;
-    Shard shard_;
+    ClashShard shard_;
     ClashManifest manifest_;
-    ClashFiles files_;
+    std::vector<ClashFile> files_;
+    std::vector<InterferenceModel> models_;
     std::vector<Pose> poses_;
-    std::vector<std::optional<Bounds>> boxes_;
+    std::vector<ClashBox> boxes_;
     std::vector<ClashCandidate> candidates_;
-    std::size_t pieces_ = 0;
     std::optional<ClashJournal> journal_;
     ClashReport report_;
 };
 
-std::string answer_text(const ClashManifest& manifest, const ClashReport& report) {
-    constexpr std::size_t most_shown = 20;
-    std::string out;
-    for (std::size_t i = 0; i < std::min(most_shown, report.clashes.size()); ++i)
-        out += clash_title(manifest, report.clashes[i]) + "\n";
-    if (report.clashes.size() > most_shown)
-        out += fmt::format("and {} more\n", report.clashes.size() - most_shown);
+Outcome merge_shards(Session& session, const ClashOptions& options) {
+    session.plan(2);
+    const ClashManifest manifest = read_clash_manifest(options.manifest);
+    if (!options.pictures.empty())
+        throw UsageError("--pictures: not of reports that are merged, whose parts are not read");
+    const ClashReport report =
+        session.stage("merge", [&] { return merged_report(manifest, options.shards); });
+    session.stage("write", [&] {
+        write_clash_outputs(session, options, manifest, report,
+                            [](std::size_t) { return std::string(); });
+    });
+    Outcome out = clash_outcome(manifest, report);
+    out.document["seconds"] = session.seconds();
     return out;
 }
 
 }  // namespace
 
-void add_clash_command(CLI::App& app, ClashOptions& options) {
+bool is_left_out(const Error& e, const ClashOptions& options) {
+    return options.keep_going && e.code() != ErrorCode::Cancelled &&
+           e.code() != ErrorCode::Internal;
+}
+
+Json clash_run_json(const ClashManifest& manifest, const ClashOptions& options) {
+    Json out;
+    out["manifest"] = manifest.key;
+    out["files"] = clash_id({clash_files_state(manifest)});
+    out["regions"] = options.regions;
+    out["volumes"] = options.volumes;
+    out["keep_going"] = options.keep_going;
+    out["assume_embedded"] = options.operands.assume_embedded;
+    out["winding"] = static_cast<int>(options.operands.winding);
+    return out;
+}
+
+std::string clash_run_key(const ClashManifest& manifest, const ClashOptions& options) {
+    return clash_id({clash_run_json(manifest, options).dump(), options.shard});
+}
+
+CLI::App& add_clash_options(CLI::App& app, ClashOptions& options) {
     CLI::App* command = app.add_subcommand(
         "clash", "all clashes between the parts of an assembly; exit code 1 if there are any");
     command
@@ -326,42 +235,42 @@ void add_clash_command(CLI::App& app, ClashOptions& options) {
         ->add_option("--pictures", options.pictures,
                      "folder for a picture of each clash; BCF has them too")
         ->type_name("FOLDER");
-    command
-        ->add_option("--shard", options.shard,
-                     "only part I of N of the pairs: runs may share the work")
-        ->type_name("I/N");
     command->add_flag("--resume", options.resume, "go on where a run that was stopped ended");
     command->add_flag("--keep-going", options.keep_going,
                       "leave out what cannot be used, and list it in the report");
     add_operand_options(*command, options.operands);
+    return *command;
+}
+
+void add_clash_command(CLI::App& app, ClashOptions& options) {
+    CLI::App* command = &add_clash_options(app, options);
+    command
+        ->add_option("--shard", options.shard,
+                     "only part I of N of the pairs: runs may share the work")
+        ->type_name("I/N");
+    command
+        ->add_option("--merge", options.shards,
+                     "make one report of those of all shards (JSON) instead, without the parts")
+        ->type_name("REPORT")
+        ->expected(1, 1'000'000);
 }
 
 Outcome run_clash(Session& session, const ClashOptions& options) {
-    for (const std::string& name : options.outputs) {
-        (void)format_of(name);
-        check_outputs(session,
-                      {options.outputs.front() == name ? "" : options.outputs.front(), name});
-    }
+    check_clash_outputs(session, options);
+    if (!options.shards.empty()) return merge_shards(session, options);
     session.plan(5);
     ClashRun run(session, options);
     const ClashReport& report = run.find();
     run.write();
-    Outcome out;
-    const bool is_complete = report.missing.empty() && report.unanswered.empty();
-    out.code = report.clashes.empty() && is_complete ? exit_done : exit_findings;
-    out.document = clash_json(run.manifest(), report);
-    out.document.erase("clashes");
-    out.document["clashes"] = report.clashes.size();
-    out.document["files"] = run.files();
+    Outcome out = clash_outcome(run.manifest(), report);
+    const std::size_t files = run.manifest().files.size();
+    out.document["files"] = files;
     out.document["candidates"] = run.candidates();
     out.document["seconds"] = session.seconds();
-    out.answer = answer_text(run.manifest(), report);
-    out.remarks = fmt::format("{} parts of {} files, {} pairs of boxes, {} clashes",
-                              run.manifest().parts.size(), run.files(), run.candidates(),
-                              report.clashes.size());
-    if (!is_complete)
-        out.remarks += fmt::format("\nincomplete: {} files left out, {} pairs without an answer",
-                                   report.missing.size(), report.unanswered.size());
+    const std::string remarks =
+        fmt::format("{} parts of {} files, {} pairs of boxes, {} clashes",
+                    run.manifest().parts.size(), files, run.candidates(), report.clashes.size());
+    out.remarks = out.remarks.empty() ? remarks : remarks + '\n' + out.remarks;
     return out;
 }
 

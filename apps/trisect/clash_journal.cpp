@@ -29,15 +29,37 @@ Json header_of(const std::string& key) {
     return out;
 }
 
+Json piece_of(std::uint64_t piece, const Json& records) {
+    return Json{{"piece", piece}, {"records", records}};
+}
+
 }  // namespace
 
-ClashJournal::ClashJournal(std::string path, const std::string& key, bool resume)
+FinishedPieces read_clash_journal(const std::string& path, const std::string& key) {
+    FinishedPieces out;
+    if (!std::filesystem::exists(path)) return out;
+    const FileBytes bytes = read_file(path, ReadLimits().bytes);
+    std::string_view rest = bytes.view();
+    bool is_first = true;
+    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
+        Json line = Json::parse(rest.substr(0, end), nullptr, false);
+        rest.remove_prefix(end + 1);
+        if (is_first && (line.is_discarded() || line != header_of(key)))
+            throw UsageError(path +
+                             " is of another run: the manifest, a file or an option has changed; "
+                             "leave --resume out to begin anew");
+        if (!is_first && line.is_object() && line.contains("piece") && line.contains("records") &&
+            line.at("piece").is_number_unsigned())
+            out[line.at("piece").get<std::uint64_t>()] = std::move(line.at("records"));
+        is_first = false;
+    }
+    return out;
+}
+
+ClashJournal::ClashJournal(std::string path, const std::string& key, const FinishedPieces& kept)
     : path_(std::move(path)) {
-    if (resume && std::filesystem::exists(path_)) read(key);
-    // Again from the beginning, without what the last line lacked.
     std::string text = line_of(header_of(key));
-    for (const auto& [piece, records] : done_)
-        text += line_of(Json{{"piece", piece}, {"records", records}});
+    for (const auto& [piece, records] : kept) text += line_of(piece_of(piece, records));
     write_file(path_, text, OutputSafety::Flushed);
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
     if (descriptor_ < 0)
@@ -49,31 +71,8 @@ ClashJournal::~ClashJournal() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void ClashJournal::read(const std::string& key) {
-    const FileBytes bytes = read_file(path_, ReadLimits().bytes);
-    std::string_view rest = bytes.view();
-    bool is_first = true;
-    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
-        const Json line = Json::parse(rest.substr(0, end), nullptr, false);
-        rest.remove_prefix(end + 1);
-        if (is_first && (line.is_discarded() || line != header_of(key)))
-            throw UsageError(path_ +
-                             " is of another run: the manifest, a file or an option has changed; "
-                             "leave --resume out to begin anew");
-        if (!is_first && !line.is_discarded() && line.contains("piece"))
-            done_[line.at("piece").get<std::size_t>()] = line.at("records");
-        is_first = false;
-    }
-}
-
-const Json* ClashJournal::done(std::size_t piece) const {
-    const auto at = done_.find(piece);
-    return at != done_.end() ? &at->second : nullptr;
-}
-
-void ClashJournal::add(std::size_t piece, Json records) {
-    append(line_of(Json{{"piece", piece}, {"records", records}}));
-    done_[piece] = std::move(records);
+void ClashJournal::add(std::uint64_t piece, const Json& records) {
+    append(line_of(piece_of(piece, records)));
 }
 
 void ClashJournal::append(const std::string& line) {

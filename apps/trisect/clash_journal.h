@@ -4,7 +4,7 @@
 #pragma once
 
 #include <chrono>
-#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -12,31 +12,33 @@
 
 namespace trisect::app {
 
+/// What finished pieces of work gave, by their numbers.
+using FinishedPieces = std::map<std::uint64_t, Json>;
+
+/// The pieces of a journal; none where there is no file. What its last line lacks is left out.
+/// \throw UsageError for a journal with another key: of another run
+[[nodiscard]] FinishedPieces read_clash_journal(const std::string& path, const std::string& key);
+
 /// One line of JSON for each finished piece of work, appended and flushed to the disk at least
-/// once a second. A run that was killed goes on from there; what the last line lacks is done again.
+/// once a second. A run that was killed goes on from there.
 class ClashJournal {
 public:
-    /// `key` is of all that the answers depend on. With `resume` the pieces of a journal with the
-    /// same key are kept; another one is an error, none is a fresh start.
-    /// \throw UsageError for a journal of another run; Error (Input) when it cannot be written
-    ClashJournal(std::string path, const std::string& key, bool resume);
+    /// Begins the file anew, with the pieces that are given. `key` is of all that the answers
+    /// depend on. \throw Error (Input) when it cannot be written
+    ClashJournal(std::string path, const std::string& key, const FinishedPieces& kept);
     ClashJournal(const ClashJournal&) = delete;
     ClashJournal& operator=(const ClashJournal&) = delete;
     ~ClashJournal();
 
-    /// Null where it is still to be done.
-    [[nodiscard]] const Json* done(std::size_t piece) const;
-    void add(std::size_t piece, Json records);
+    void add(std::uint64_t piece, const Json& records);
     /// After the report was written.
     void remove();
 
 private:
-    void read(const std::string& key);
     void append(const std::string& line);
 
     std::string path_;
     int descriptor_ = -1;
-    std::map<std::size_t, Json> done_;
     std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();
 };
 

@@ -12,17 +12,31 @@
 #include <filesystem>
 #include <map>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 
+#include "clash_id.h"
 #include "outcome.h"
 #include "values.h"
 
 namespace trisect::app {
 namespace {
 
+// Reports are JSON, which has nothing else.
+bool is_utf8(const std::string& text) {
+    try {
+        (void)Json(text).dump();
+    } catch (const Json::exception&) {
+        return false;
+    }
+    return true;
+}
+
 class ManifestReader {
 public:
     explicit ManifestReader(const std::string& file) : file_(file) {
-        out_.bytes = std::string(read_file(file, ReadLimits().bytes).view());
+        bytes_ = std::string(read_file(file, ReadLimits().bytes).view());
+        out_.key = clash_id({bytes_});
     }
 
     ClashManifest read() {
@@ -35,6 +49,7 @@ public:
         const auto twice = std::ranges::adjacent_find(out_.parts, {}, &ClashPart::id);
         if (twice != out_.parts.end())
             fail(fmt::format("two parts of one identity: '{}'", twice->id));
+        sort_files();
         return std::move(out_);
     }
 
@@ -56,13 +71,35 @@ private:
         return at->second;
     }
 
-    void add_part(ClashPart part, const std::string& where, std::uint64_t line = 0) {
-        if (part.file.empty()) fail(where + " has no file", line);
-        if (part.name.empty()) part.name = part.file;
+    std::uint32_t file(const std::string& name) {
+        const auto [at, is_new] =
+            files_.try_emplace(name, static_cast<std::uint32_t>(out_.files.size()));
+        if (is_new) {
+            const std::filesystem::path path(name);
+            out_.files.push_back(
+                path.is_absolute() ? name
+                                   : (std::filesystem::path(file_).parent_path() / path).string());
+        }
+        return at->second;
+    }
+
+    // Two names may be one: "a.off", and the same with its folder.
+    void sort_files() {
+        std::vector<std::string> sorted = out_.files;
+        std::ranges::sort(sorted);
+        sorted.erase(std::ranges::unique(sorted).begin(), sorted.end());
+        for (ClashPart& part : out_.parts)
+            part.file = static_cast<std::uint32_t>(
+                std::ranges::lower_bound(sorted, out_.files[part.file]) - sorted.begin());
+        out_.files = std::move(sorted);
+    }
+
+    void add_part(ClashPart part, const std::string& of_file, const std::string& where,
+                  std::uint64_t line = 0) {
+        if (of_file.empty()) fail(where + " has no file", line);
+        if (part.name.empty()) part.name = of_file;
         if (part.id.empty()) part.id = part.name;
-        const std::filesystem::path path(part.file);
-        if (path.is_relative())
-            part.file = (std::filesystem::path(file_).parent_path() / path).string();
+        part.file = file(of_file);
         for (const double v : part.pose)
             if (!std::isfinite(v)) fail(where + ": a pose with a number that is not finite", line);
         out_.parts.push_back(std::move(part));
@@ -77,26 +114,34 @@ private:
     // --- JSON ---
 
     void read_json() {
-        Json document;
         try {
-            document = Json::parse(out_.bytes);
-        } catch (const Json::parse_error& e) {
-            throw InputError(FilePlace{file_, 0, 0, e.byte}, "no JSON");
-        }
-        try {
-            std::size_t number = 0;
-            for (const Json& p : document.at("parts")) read_part(p, number++);
+            const Json document = without_parts();
+            for (const Json& p : document.at("parts")) read_part(p);  // what is no object
             if (document.contains("sets"))
                 for (const Json& s : document.at("sets")) read_set(s);
+        } catch (const Json::parse_error& e) {
+            throw InputError(FilePlace{file_, 0, 0, e.byte}, "no JSON");
         } catch (const Json::exception& e) {
             fail(std::string("not as a manifest should be: ") + e.what());
         }
     }
 
-    void read_part(const Json& p, std::size_t number) {
-        const std::string where = fmt::format("part {}", number);
+    // Each part is read when its end is reached, and forgotten: the document of all is many times
+    // as large as what is kept of it.
+    Json without_parts() {
+        bool in_parts = false;
+        return Json::parse(bytes_, [&](int depth, Json::parse_event_t event, Json& parsed) {
+            if (event == Json::parse_event_t::key && depth == 1) in_parts = parsed == "parts";
+            if (event != Json::parse_event_t::object_end || depth != 2 || !in_parts) return true;
+            read_part(parsed);
+            return false;
+        });
+    }
+
+    void read_part(const Json& p) {
+        const std::string where = fmt::format("part {}", out_.parts.size());
         ClashPart part;
-        part.file = p.at("file").get<std::string>();
+        const std::string of_file = p.at("file").get<std::string>();
         part.name = p.value("name", std::string());
         part.id = p.value("id", std::string());
         part.group = group(p.value("group", std::string()));
@@ -106,7 +151,7 @@ private:
                 fail(where + ": a pose has 12 numbers, or 3 of a translation");
             set_pose(part, numbers);
         }
-        add_part(std::move(part), where);
+        add_part(std::move(part), of_file, where);
     }
 
     // A name or a list of names.
@@ -183,7 +228,7 @@ private:
     }
 
     void read_csv() {
-        std::string_view rest = out_.bytes;
+        std::string_view rest = bytes_;
         std::vector<std::string> columns;
         for (std::uint64_t line = 1; !rest.empty(); ++line) {
             const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -204,9 +249,10 @@ private:
                   std::uint64_t line) {
         if (fields.size() > columns.size()) fail("more fields than columns", line);
         ClashPart part;
+        std::string of_file;
         std::string of_group;
         for (std::size_t i = 0; i < fields.size(); ++i) {
-            if (columns[i] == "file") part.file = fields[i];
+            if (columns[i] == "file") of_file = fields[i];
             if (columns[i] == "name") part.name = fields[i];
             if (columns[i] == "id") part.id = fields[i];
             if (columns[i] == "group") of_group = fields[i];
@@ -217,16 +263,27 @@ private:
             set_pose(part, numbers);
         }
         part.group = group(of_group);
-        add_part(std::move(part), "a part", line);
+        for (const std::string& text : {of_file, part.name, part.id, of_group})
+            if (!is_utf8(text)) fail("a name that is not UTF-8", line);
+        add_part(std::move(part), of_file, "a part", line);
     }
 
     std::string file_;
+    std::string bytes_;
     std::map<std::string, std::uint32_t> groups_;
+    std::unordered_map<std::string, std::uint32_t> files_;
     ClashManifest out_;
 };
 
 }  // namespace
 
 ClashManifest read_clash_manifest(const std::string& file) { return ManifestReader(file).read(); }
+
+std::uint32_t part_number(const ClashManifest& manifest, const std::string& id) {
+    const auto at = std::ranges::lower_bound(manifest.parts, id, {}, &ClashPart::id);
+    if (at == manifest.parts.end() || at->id != id)
+        throw UsageError("the manifest has no part '" + id + "'");
+    return static_cast<std::uint32_t>(at - manifest.parts.begin());
+}
 
 }  // namespace trisect::app

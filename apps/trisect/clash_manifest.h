@@ -13,7 +13,7 @@ namespace trisect::app {
 struct ClashPart {
     std::string id;    ///< unique: that of the manifest, or the name
     std::string name;  ///< for people
-    std::string file;  ///< as it can be opened
+    std::uint32_t file = 0;
     std::uint32_t group = 0;
     std::array<double, 12> pose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 };
@@ -38,14 +38,18 @@ struct ClashSet {
 };
 
 struct ClashManifest {
-    std::vector<ClashPart> parts;  ///< by id
+    std::vector<ClashPart> parts;    ///< by id
+    std::vector<std::string> files;  ///< as they can be opened, each once, in order
     std::vector<std::string> groups;
     std::vector<ClashSet> sets;
-    std::string bytes;  ///< of the file
+    std::string key;  ///< of all bytes of the file
 };
 
 /// JSON, or CSV where the name ends so. Files of parts are looked for beside the manifest.
 /// \throw InputError with the place
 [[nodiscard]] ClashManifest read_clash_manifest(const std::string& file);
+
+/// The place of a part in the list. \throw UsageError where there is none
+[[nodiscard]] std::uint32_t part_number(const ClashManifest& manifest, const std::string& id);
 
 }  // namespace trisect::app

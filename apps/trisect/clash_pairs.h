@@ -6,7 +6,6 @@
 #include <array>
 #include <compare>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,15 +18,43 @@ namespace trisect::app {
 /// Contains what it is of, whatever was rounded.
 [[nodiscard]] Bounds posed_box(const Bounds& box, const std::array<double, 12>& pose);
 
+/// A part, as far as the search for pairs needs it.
+struct ClashBox {
+    Bounds box;  ///< in the world
+    std::uint32_t part = 0;
+    std::uint32_t group = 0;
+};
+
 struct ClashCandidate {
     std::uint32_t a = 0;  ///< parts, a < b
     std::uint32_t b = 0;
     friend auto operator<=>(const ClashCandidate&, const ClashCandidate&) = default;
 };
 
-/// All pairs of a set whose boxes meet, grown by what a clearance needs; in order. Parts without a
-/// box meet nothing.
-[[nodiscard]] std::vector<ClashCandidate> clash_candidates(
-    const ClashManifest& manifest, std::span<const std::optional<Bounds>> boxes);
+/// How near parts of two groups may be for a set to say something of them.
+class ClashLimits {
+public:
+    ClashLimits(std::span<const ClashSet> sets, std::size_t groups);
+
+    /// Below 0: no set has them.
+    [[nodiscard]] double of(std::uint32_t g, std::uint32_t h) const {
+        return limits_[g * groups_ + h];
+    }
+    [[nodiscard]] double most() const { return most_; }
+
+private:
+    std::size_t groups_;
+    std::vector<double> limits_;
+    double most_ = 0;
+};
+
+/// Whether some set has the two, and they are near enough for it.
+[[nodiscard]] bool is_candidate(const ClashLimits& limits, const ClashBox& a, const ClashBox& b);
+
+/// Adds the pairs among `boxes` whose place is in `cell`: the lower corner of what the two boxes
+/// have in common. Cells are half-open, so among cells that fill space each pair has one. For that
+/// a box must be in the list of each cell that it meets, grown upwards by `limits.most()`.
+void add_candidates(const ClashLimits& limits, std::span<const ClashBox> boxes, const Bounds& cell,
+                    std::vector<ClashCandidate>& out);
 
 }  // namespace trisect::app

@@ -9,7 +9,7 @@
 #include <map>
 #include <string_view>
 
-#include "clash_answer.h"
+#include "clash_id.h"
 #include "values.h"
 #include "xml_text.h"
 #include "zip_file.h"
@@ -20,8 +20,7 @@ namespace {
 constexpr std::array<const char*, 3> mode_names{"intersection", "collision", "clearance"};
 
 const ClashPart& part_of(const ClashManifest& manifest, const Json& id) {
-    return *std::ranges::lower_bound(manifest.parts, id.get_ref<const std::string&>(), {},
-                                     &ClashPart::id);
+    return manifest.parts[part_number(manifest, id.get_ref<const std::string&>())];
 }
 
 std::string text_of(const Json& record, const char* key) {
@@ -116,11 +115,14 @@ std::string clash_title(const ClashManifest& manifest, const Json& clash) {
                        part_of(manifest, clash.at("b")).name, text_of(clash, "relation"));
 }
 
-Json clash_json(const ClashManifest& manifest, const ClashReport& report) {
+Json clash_head_json(const ClashManifest& manifest, const ClashReport& report) {
     Json out;
     out["schema"] = "trisect.clash/1";
     out["manifest"] = report.manifest;
-    if (!report.shard.empty()) out["shard"] = report.shard;
+    if (!report.shard.empty()) {
+        out["shard"] = report.shard;
+        out["run"] = report.run;
+    }
     out["parts"] = manifest.parts.size();
     std::map<std::string, std::size_t> counts;
     for (const Json& clash : report.clashes) ++counts[text_of(clash, "set")];
@@ -133,9 +135,15 @@ Json clash_json(const ClashManifest& manifest, const ClashReport& report) {
         s["clashes"] = counts[set.name];
         out["sets"].push_back(std::move(s));
     }
-    out["is_complete"] = report.missing.empty() && report.unanswered.empty();
+    out["is_complete"] = report.is_complete();
     out["missing"] = report.missing;
     out["unanswered"] = report.unanswered;
+    if (!report.undone.empty()) out["undone"] = report.undone;
+    return out;
+}
+
+Json clash_json(const ClashManifest& manifest, const ClashReport& report) {
+    Json out = clash_head_json(manifest, report);
     out["clashes"] = report.clashes;
     return out;
 }

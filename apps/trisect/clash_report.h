@@ -16,14 +16,22 @@ namespace trisect::app {
 struct ClashReport {
     std::string manifest;          ///< name of the file
     std::string shard;             ///< "2/8", or empty
+    Json run;                      ///< of a shard: what all of them have in common
     std::vector<Json> clashes;     ///< in order of pairs, then sets
     std::vector<Json> missing;     ///< files that could not be used, with their parts
     std::vector<Json> unanswered;  ///< pairs without an answer
+    std::vector<Json> undone;      ///< cells of space that a run did not come to
+
+    [[nodiscard]] bool is_complete() const {
+        return missing.empty() && unanswered.empty() && undone.empty();
+    }
 };
 
 /// The PNG file of a clash, by its place in the report; empty: none.
 using ClashPicture = std::function<std::string(std::size_t)>;
 
+/// All but the clashes.
+[[nodiscard]] Json clash_head_json(const ClashManifest& manifest, const ClashReport& report);
 [[nodiscard]] Json clash_json(const ClashManifest& manifest, const ClashReport& report);
 /// A line for each clash.
 [[nodiscard]] std::string clash_csv(const ClashManifest& manifest, const ClashReport& report);

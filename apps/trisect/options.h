@@ -158,8 +158,9 @@ struct ClashOptions {
     OperandOptions operands;
     bool regions = false;
     bool volumes = false;
-    std::string pictures;  ///< folder; empty: none
-    std::string shard;     ///< "2/8"; empty: all
+    std::string pictures;             ///< folder; empty: none
+    std::string shard;                ///< "2/8"; empty: all
+    std::vector<std::string> shards;  ///< reports of shards to make one of
     bool resume = false;
     bool keep_going = false;
 };

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// LocalRank: a second thread of the coordinating rank.
+// It does tasks as other ranks do.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "rank_worker.h"
+
+namespace trisect::app {
+
+/// Tasks go in and results come out, as they do with other ranks, but not as messages.
+class LocalRank {
+public:
+    explicit LocalRank(std::unique_ptr<RankWorker> worker);
+    LocalRank(const LocalRank&) = delete;
+    LocalRank& operator=(const LocalRank&) = delete;
+    ~LocalRank() { stop(); }
+    /// Waits for the task that is being done, and drops all others.
+    void stop();
+
+    void give(RankTask task);
+    /// Null if nothing is finished. \throw CancelledError when the thread was stopped
+    [[nodiscard]] std::optional<RankResult> take();
+    /// After stop().
+    [[nodiscard]] RankWorker& worker() { return *worker_; }
+
+private:
+    void work();
+
+    std::unique_ptr<RankWorker> worker_;
+    std::mutex mutex_;  // guards what follows
+    std::condition_variable changed_;
+    std::deque<RankTask> tasks_;
+    std::deque<RankResult> results_;
+    std::exception_ptr failure_;
+    bool ends_ = false;
+    std::thread thread_;
+};
+
+}  // namespace trisect::app

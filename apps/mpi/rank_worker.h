@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// RankWorker: the work of one rank.
+#pragma once
+
+#include <cstdint>
+
+#include "model_cache.h"
+#include "rank_task.h"
+#include "trisect/clash_answer.h"
+#include "trisect/clash_journal.h"
+#include "trisect/options.h"
+#include "trisect/session.h"
+
+namespace trisect::app {
+
+/// Knows nothing of other ranks. What is finished is in the journal before it is handed back.
+class RankWorker {
+public:
+    /// Pairs of a slice. Journals and reports do not depend on ranks, so this is fixed.
+    static constexpr std::size_t slice_pairs = 256;
+
+    RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,
+               const RankStart& start, const std::string& journal, const FinishedPieces& kept);
+
+    /// What fails is a result, too. \throw CancelledError
+    [[nodiscard]] RankResult done(const RankTask& task);
+    /// What the rank needed.
+    [[nodiscard]] RankResult ended() const;
+    void remove_journal() { journal_.remove(); }
+
+private:
+    void read_file(const RankTask& task, RankResult& result);
+    void answer_slice(const RankTask& task, RankResult& result);
+    [[nodiscard]] std::vector<ClashCandidate> candidates(const RankTask& task) const;
+    [[nodiscard]] std::vector<Json> answers(const RankTask& task, const ClashCandidate& pair);
+    [[nodiscard]] PlacedPart placed(const RankTask& task, std::uint32_t part);
+    void check_poses(const RankTask& task) const;
+
+    Session& session_;
+    const ClashOptions& options_;
+    RankStart start_;
+    ClashLimits limits_;
+    ModelCache models_;
+    ClashJournal journal_;
+};
+
+}  // namespace trisect::app

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ranks.h"
+
+#include <trisect/kernel/error.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <thread>
+#include <utility>
+
+namespace trisect::app {
+
+int Ranks::rank() {
+    int out = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &out);
+    return out;
+}
+
+int Ranks::count() {
+    int out = 0;
+    MPI_Comm_size(MPI_COMM_WORLD, &out);
+    return out;
+}
+
+void Ranks::send(int to, Tag tag, std::string bytes) {
+    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw UnsupportedError("a message of more than 2 GiB");
+    (void)has_sent_all();
+    ++messages_;
+    bytes_ += bytes.size();
+    Sent& sent = sent_.emplace_back();
+    sent.bytes = std::move(bytes);
+    MPI_Isend(sent.bytes.data(), static_cast<int>(sent.bytes.size()), MPI_BYTE, to, tag,
+              MPI_COMM_WORLD, &sent.request);
+}
+
+std::optional<Ranks::Message> Ranks::receive() {
+    int is_there = 0;
+    MPI_Message handle{};
+    MPI_Status status{};
+    MPI_Improbe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &is_there, &handle, &status);
+    if (is_there == 0) return std::nullopt;
+    int size = 0;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    Message out{status.MPI_SOURCE, status.MPI_TAG,
+                std::string(static_cast<std::size_t>(size), '\0')};
+    MPI_Mrecv(out.bytes.data(), size, MPI_BYTE, &handle, MPI_STATUS_IGNORE);
+    ++messages_;
+    bytes_ += out.bytes.size();
+    return out;
+}
+
+bool Ranks::has_sent_all() {
+    sent_.remove_if([](Sent& s) {
+        int is_done = 0;
+        MPI_Test(&s.request, &is_done, MPI_STATUS_IGNORE);
+        return is_done != 0;
+    });
+    return sent_.empty();
+}
+
+void Patience::wait() {
+    std::this_thread::sleep_for(std::chrono::microseconds(microseconds_));
+    microseconds_ = std::min(microseconds_ + 10, 200U);
+}
+
+}  // namespace trisect::app

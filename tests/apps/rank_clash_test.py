@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""rank_clash_test.py MAKE_PLANT TRISECT [TRISECT_MPI MPIRUN]
+
+Finds the clashes of a small plant with `trisect clash`, in one piece and in shards, and with `trisect-mpi clash` on 1, 2
+and 4 ranks: all reports are the same bytes. So are those of runs that are gone on with. Without the last two arguments,
+or where MPI does not start, only the first part is done, and the test counts as skipped (77).
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+MAKE_PLANT, TRISECT = sys.argv[1:3]
+TRISECT_MPI, MPIRUN = (sys.argv[3:5] + [None, None])[:2]
+OUTPUTS = ('report.json', 'report.csv', 'report.bcf')
+ENVIRONMENT = {**os.environ, 'OMPI_MCA_rmaps_base_oversubscribe': '1', 'OMPI_MCA_hwloc_base_binding_policy': 'none',
+               'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'}
+
+
+def call(command):
+    return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=300, check=False)
+
+
+def ranks(count):
+    return [MPIRUN, '-n', str(count), TRISECT_MPI]
+
+
+def has_mpi():
+    if not TRISECT_MPI:
+        print('MPI is absent: trisect-mpi was not built')
+        return False
+    started = call([MPIRUN, '-n', '2', 'true'])
+    if started.returncode != 0:
+        print('MPI does not start here: ' + started.stderr)
+    return started.returncode == 0
+
+
+READY = has_mpi()
+
+
+class RankClash(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        subprocess.run([sys.executable, MAKE_PLANT, self.folder, '--parts', '1500', '--clashes', '20'], check=True,
+                       stdout=subprocess.DEVNULL)
+        self.manifest = self.folder / 'manifest.json'
+
+    def clash(self, program, name, *more, code=1):
+        out = self.folder / name
+        out.mkdir(exist_ok=True)
+        outputs = [word for output in OUTPUTS for word in ('-o', str(out / output))]
+        done = call([*program, 'clash', str(self.manifest), *outputs, '--volumes', '-q', *more])
+        self.assertEqual(done.returncode, code, done.stderr)
+        return out
+
+    def assert_same(self, one, other):
+        for output in OUTPUTS:
+            self.assertEqual((one / output).read_bytes(), (other / output).read_bytes(), f'{other.name}/{output}')
+        self.assertEqual(sorted(p.name for p in other.iterdir()), sorted(OUTPUTS))
+
+    def test_shards_make_the_whole(self):
+        whole = self.clash([TRISECT], 'whole')
+        shards = [self.clash([TRISECT], f'shard{i}', '--shard', f'{i}/3', code=int(i == 1)) for i in (1, 2, 3)]
+        merge = [word for shard in reversed(shards) for word in ('--merge', str(shard / 'report.json'))]
+        self.assert_same(whole, self.clash([TRISECT], 'merged', *merge))
+        self.clash([TRISECT], 'merged', *merge[:4], code=2)
+        self.clash([TRISECT], 'merged', *merge, *merge[:2], code=2)
+        self.clash([TRISECT], 'merged', '--merge', str(whole / 'report.json'), code=3)
+
+    @unittest.skipUnless(READY, 'no MPI')
+    def test_any_number_of_ranks(self):
+        whole = self.clash([TRISECT], 'whole')
+        for count in (1, 2, 4):
+            self.assert_same(whole, self.clash(ranks(count), f'ranks{count}'))
+        self.assert_same(whole, self.clash(ranks(2), 'small', '--cache', '1K'))
+        self.assert_same(whole, self.clash(ranks(2), 'threads', '--threads', '2'))
+
+    @unittest.skipUnless(READY, 'no MPI')
+    def test_what_a_stopped_run_leaves_is_taken_over(self):
+        whole = self.clash([TRISECT], 'whole')
+        out = self.clash(ranks(3), 'stopped', '--max-work', '3000', code=5)
+        partial = json.loads((out / 'report.json.partial.json').read_text(encoding='utf-8'))
+        self.assertFalse(partial['is_complete'])
+        self.assertTrue(partial['undone'])
+        self.assertFalse((out / 'report.json').exists())
+        self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
+        (out / 'report.json.journal.5').write_text('{"schema":"trisect.clash-journal/1","key":"x"}\n', encoding='ascii')
+        self.clash(ranks(2), 'stopped', '--resume', code=2)
+
+    @unittest.skipUnless(READY, 'no MPI')
+    def test_files_that_cannot_be_used(self):
+        (self.folder / 'bar.off').unlink()
+        block = self.folder / 'block.off'
+        block.write_bytes(block.read_bytes()[:200])
+        self.clash([TRISECT], 'whole', code=3)
+        self.clash(ranks(3), 'ranks', code=3)
+        whole = self.clash([TRISECT], 'whole', '--keep-going')
+        self.assertEqual(len(json.loads((whole / 'report.json').read_text(encoding='utf-8'))['missing']), 2)
+        out = self.clash(ranks(3), 'ranks', '--keep-going')
+        self.assert_same(whole, out)
+
+
+if __name__ == '__main__':
+    result = unittest.main(argv=sys.argv[:1], exit=False, verbosity=2).result
+    sys.exit(1 if not result.wasSuccessful() else 0 if READY else 77)
