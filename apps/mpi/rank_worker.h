@@ -18,7 +18,7 @@ namespace trisect::app {
 class RankWorker {
 public:
     /// Pairs of a slice. Journals and reports do not depend on ranks, so this is fixed.
-    static constexpr std::size_t slice_pairs = 256;
+    static constexpr std::size_t slice_pairs = 32;
 
     RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,
                const RankStart& start, const std::string& journal, const FinishedPieces& kept);

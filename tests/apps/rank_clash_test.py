@@ -95,7 +95,7 @@ class RankClash(unittest.TestCase):
     def test_files_that_cannot_be_used(self):
         (self.folder / 'bar.off').unlink()
         block = self.folder / 'block.off'
-        block.write_bytes(block.read_bytes()[:200])
+        block.write_bytes(block.read_bytes()[:100])
         self.clash([TRISECT], 'whole', code=3)
         self.clash(ranks(3), 'ranks', code=3)
         whole = self.clash([TRISECT], 'whole', '--keep-going')
