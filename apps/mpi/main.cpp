@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <chrono>
+#include <csignal>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,8 +16,6 @@
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/prctl.h>
-
-#include <csignal>
 #endif
 
 #include <trisect/kernel/error.h>
@@ -52,10 +51,19 @@ void end_with_parent() {
 #endif
 }
 
+// A Supervisor fetches these. MPI has threads, too, which would let them end the process.
+void keep_signals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&set, signal);
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     end_with_parent();
+    keep_signals();
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     const bool is_first = trisect::app::Ranks::rank() == 0;
