@@ -88,17 +88,16 @@ void RankWorker::read_file(const RankTask& task, RankResult& result) {
 
 void RankWorker::answer_slice(const RankTask& task, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
-    const std::vector<ClashCandidate> pairs = candidates(task);
+    if (tile_ != tile_of(task.piece)) find_candidates(task);
+    const std::size_t size = std::max(slice_pairs, (pairs_.size() + most_slices - 1) / most_slices);
+    const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
     const std::size_t slice = slice_of(task.piece);
-    const std::size_t slices =
-        std::max<std::size_t>(1, (pairs.size() + slice_pairs - 1) / slice_pairs);
-    if (slices > slice_of(~std::uint64_t{0})) throw UnsupportedError("too many parts in one place");
     if (slice == 0) check_poses(task);
-    const std::size_t begin = std::min(slice * slice_pairs, pairs.size());
-    const std::size_t n = std::min(slice_pairs, pairs.size() - begin);
+    const std::size_t begin = std::min(slice * size, pairs_.size());
+    const std::size_t n = std::min(size, pairs_.size() - begin);
     std::vector<std::vector<Json>> records(n);
     for_each_in_parallel(n, session_.limits(),
-                         [&](std::size_t i) { records[i] = answers(task, pairs[begin + i]); });
+                         [&](std::size_t i) { records[i] = answers(task, pairs_[begin + i]); });
     result.records = Json::array();
     for (auto& some : records)
         for (Json& record : some) result.records.push_back(std::move(record));
@@ -108,21 +107,22 @@ void RankWorker::answer_slice(const RankTask& task, RankResult& result) {
 }
 
 // By files, so that a model is asked for again while it is here.
-std::vector<ClashCandidate> RankWorker::candidates(const RankTask& task) const {
+void RankWorker::find_candidates(const RankTask& task) {
     std::vector<ClashBox> boxes;
     boxes.reserve(task.parts.size());
     for (const TilePart& part : task.parts) boxes.push_back(part.box);
-    std::vector<ClashCandidate> out;
-    add_candidates(limits_, boxes, task.cell, out);
+    tile_.reset();
+    pairs_.clear();
+    add_candidates(limits_, boxes, task.cell, pairs_);
     const auto file = [&](std::uint32_t part) {
         return std::ranges::lower_bound(task.parts, part, {},
                                         [](const TilePart& p) { return p.box.part; })
             ->file;
     };
-    std::ranges::sort(out, {}, [&](const ClashCandidate& c) {
+    std::ranges::sort(pairs_, {}, [&](const ClashCandidate& c) {
         return std::tuple(file(c.a), file(c.b), c.a, c.b);
     });
-    return out;
+    tile_ = tile_of(task.piece);
 }
 
 std::vector<Json> RankWorker::answers(const RankTask& task, const ClashCandidate& pair) {

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "model_cache.h"
 #include "rank_task.h"
@@ -17,8 +19,10 @@ namespace trisect::app {
 /// Knows nothing of other ranks. What is finished is in the journal before it is handed back.
 class RankWorker {
 public:
-    /// Pairs of a slice. Journals and reports do not depend on ranks, so this is fixed.
+    /// Pairs of a slice, more where a tile would have more slices than that. Journals do not depend
+    /// on ranks, so these are fixed.
     static constexpr std::size_t slice_pairs = 32;
+    static constexpr std::size_t most_slices = 256;
 
     RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,
                const RankStart& start, const std::string& journal, const FinishedPieces& kept);
@@ -32,7 +36,7 @@ public:
 private:
     void read_file(const RankTask& task, RankResult& result);
     void answer_slice(const RankTask& task, RankResult& result);
-    [[nodiscard]] std::vector<ClashCandidate> candidates(const RankTask& task) const;
+    void find_candidates(const RankTask& task);
     [[nodiscard]] std::vector<Json> answers(const RankTask& task, const ClashCandidate& pair);
     [[nodiscard]] PlacedPart placed(const RankTask& task, std::uint32_t part);
     void check_poses(const RankTask& task) const;
@@ -42,6 +46,8 @@ private:
     RankStart start_;
     ClashLimits limits_;
     ModelCache models_;
+    std::optional<std::uint64_t> tile_;  // of which the pairs are
+    std::vector<ClashCandidate> pairs_;
     ClashJournal journal_;
 };
 

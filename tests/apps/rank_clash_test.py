@@ -92,6 +92,17 @@ class RankClash(unittest.TestCase):
         self.clash(ranks(2), 'stopped', '--resume', code=2)
 
     @unittest.skipUnless(READY, 'no MPI')
+    def test_many_parts_in_one_place(self):
+        parts = [{'file': 'block.off', 'name': f'block {i}', 'pose': [i % 3, i % 5, 0]} for i in range(50)]
+        self.manifest.write_text(json.dumps({'parts': parts}), encoding='ascii')
+        whole = self.clash([TRISECT], 'whole')
+        self.assertEqual(len(json.loads((whole / 'report.json').read_text(encoding='utf-8'))['clashes']), 50 * 49 // 2)
+        self.assert_same(whole, self.clash(ranks(3), 'ranks'))
+        out = self.clash(ranks(3), 'stopped', '--max-work', '100', code=5)
+        self.assertTrue(list(out.glob('*.journal.*')))
+        self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
+
+    @unittest.skipUnless(READY, 'no MPI')
     def test_files_that_cannot_be_used(self):
         (self.folder / 'bar.off').unlink()
         block = self.folder / 'block.off'
