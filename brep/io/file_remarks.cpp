@@ -236,11 +236,9 @@ std::vector<FileRemark> file_remarks(std::string_view data, MeshFormat format,
         case MeshFormat::Stl:
         case MeshFormat::StlAscii:
             return AsciiStlRemarks(source).collect();
-        case MeshFormat::Off:
-        case MeshFormat::Ply:
-            break;
+        default:
+            return {};
     }
-    return {};
 }
 
 }  // namespace trisect

@@ -15,13 +15,16 @@
 namespace trisect {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, MeshFormat>, 6> names{{
+constexpr std::array<std::pair<std::string_view, MeshFormat>, 9> names{{
     {"obj", MeshFormat::Obj},
     {"stl", MeshFormat::Stl},
     {"stl-ascii", MeshFormat::StlAscii},
     {"stl-binary", MeshFormat::StlBinary},
     {"off", MeshFormat::Off},
     {"ply", MeshFormat::Ply},
+    {"3mf", MeshFormat::ThreeMf},
+    {"glb", MeshFormat::Glb},
+    {"amf", MeshFormat::Amf},
 }};
 
 constexpr char lower(char c) noexcept {
@@ -99,12 +102,33 @@ std::optional<MeshFormat> mesh_format_of_extension(const std::filesystem::path& 
     return mesh_format_from_name(std::string_view(extension).substr(1));
 }
 
+bool holds_triangles_only(MeshFormat format) noexcept {
+    switch (format) {
+        case MeshFormat::Obj:
+        case MeshFormat::Off:
+        case MeshFormat::Ply:
+            return false;
+        default:
+            return true;
+    }
+}
+
+bool holds_floats(MeshFormat format) noexcept {
+    return format == MeshFormat::Stl || format == MeshFormat::StlBinary ||
+           format == MeshFormat::Glb;
+}
+
 MeshFormat detect_stl_kind(std::string_view data) noexcept {
     if (has_binary_stl_size(data)) return MeshFormat::StlBinary;
     return begins_like_ascii_stl(data) ? MeshFormat::StlAscii : MeshFormat::StlBinary;
 }
 
 std::optional<MeshFormat> detect_mesh_format(std::string_view data) noexcept {
+    if (data.starts_with("glTF")) return MeshFormat::Glb;
+    if (data.starts_with(std::string_view("PK\3\4", 4))) return MeshFormat::ThreeMf;
+    if (skip_preamble(data, false).starts_with('<') &&
+        data.substr(0, 1024).find("<amf") != std::string_view::npos)
+        return MeshFormat::Amf;
     if (data.starts_with("ply\n") || data.starts_with("ply\r")) return MeshFormat::Ply;
     if (has_binary_stl_size(data)) return MeshFormat::StlBinary;
     if (begins_like_ascii_stl(data)) return MeshFormat::StlAscii;

@@ -8,6 +8,7 @@
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/io/formats/formats.h>
 #include <trisect/brep/io/formats/input_text.h>
+#include <trisect/brep/io/read_model.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -19,11 +20,15 @@ MeshFormat mesh_format_of(const std::filesystem::path& path, std::string_view da
     if (const auto by_content = detect_mesh_format(data)) return *by_content;
     throw InputError(FilePlace{path.string(), 0, 0, 0},
                      "neither the extension nor the content tells the format; known are obj, stl, "
-                     "off and ply");
+                     "off, ply, 3mf, glb and amf");
 }
 
 PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::string& name,
                       const ReadOptions& options) {
+    if (holds_models(format)) {
+        const Model model = read_model(data, format, name, options);
+        return model.parts.size() == 1 ? model.parts.front().mesh : merged(model);
+    }
     if (format == MeshFormat::Stl) format = detect_stl_kind(data);
     const bool binary = format == MeshFormat::StlBinary;
     const detail::InputText source(data, name, options.limits, binary);
@@ -41,8 +46,7 @@ PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::strin
             return detail::read_ply(source);
         case MeshFormat::StlBinary:
             return detail::read_stl_binary(source);
-        case MeshFormat::Stl:
-        case MeshFormat::StlAscii:
+        default:
             break;
     }
     return detail::read_stl_ascii(source);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a mesh to bytes to a file. The mesh is checked once, here, so that no writer can index out
-// of range and nothing is written that the readers would refuse.
+// From a mesh or model to bytes to a file. Meshes are checked once, here, so that no writer can
+// index out of range and nothing is written that the readers would refuse.
 #include <trisect/brep/io/write_mesh.h>
 
 #include <trisect/brep/io/formats/formats.h>
+#include <trisect/brep/io/models/models.h>
 #include <trisect/brep/io/output_file.h>
 #include <trisect/kernel/error.h>
 
@@ -47,14 +48,55 @@ void check_faces(const PolygonMesh& mesh, const std::string& name) {
     }
 }
 
-void check_triangles(const PolygonMesh& mesh, const std::string& name) {
+void check_triangles(const PolygonMesh& mesh, const std::string& name, const std::string& format) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         if (mesh.face(f).size() != 3) {
-            throw UnsupportedError(name + ": STL holds triangles only; face " + std::to_string(f) +
-                                   " has " + std::to_string(mesh.face(f).size()) +
+            throw UnsupportedError(name + ": " + format + " holds triangles only; face " +
+                                   std::to_string(f) + " has " +
+                                   std::to_string(mesh.face(f).size()) +
                                    " corners (triangulate the mesh first)");
         }
     }
+}
+
+void check_materials(const Model& model, const std::string& name) {
+    for (const ModelPart& part : model.parts) {
+        if (!part.materials.empty() && part.materials.size() != part.mesh.face_count())
+            refuse(name, "a part has not as many materials as faces");
+        for (const std::uint32_t m : part.materials) {
+            if (m != no_material && m >= model.materials.size())
+                refuse(name, "a face names material " + std::to_string(m) + " of " +
+                                 std::to_string(model.materials.size()));
+        }
+    }
+}
+
+FormattedMesh format_parts(const Model& model, MeshFormat format, const std::string& name) {
+    check_materials(model, name);
+    const std::string title = format == MeshFormat::Glb ? "GLB" : "3MF";
+    for (const ModelPart& part : model.parts) {
+        check_points(part.mesh, name);
+        check_faces(part.mesh, name);
+        check_triangles(part.mesh, name, title);
+    }
+#if defined(TRISECT_WITH_ZIP) && defined(TRISECT_WITH_EXPAT)
+    if (format == MeshFormat::ThreeMf) return detail::write_three_mf(model);
+#endif
+#ifdef TRISECT_WITH_JSON
+    if (format == MeshFormat::Glb) return detail::write_glb(model, name);
+#endif
+    if (format == MeshFormat::Amf) throw UnsupportedError(name + ": AMF is read, not written");
+    throw UnsupportedError(name + ": this build of Trisect was made without what writing " + title +
+                           " takes");
+}
+
+WriteOptions with_format(const std::filesystem::path& path, WriteOptions options) {
+    if (!options.format) options.format = mesh_format_of_extension(path);
+    if (!options.format) {
+        refuse(path.string(),
+               "the extension tells no format; known are .obj, .stl, .off, .ply, .3mf and .glb");
+    }
+    return options;
 }
 
 }  // namespace
@@ -63,6 +105,7 @@ FormattedMesh format_mesh(const PolygonMesh& mesh, const WriteOptions& options,
                           const std::string& name) {
     if (!options.format) refuse(name, "no format given");
     const MeshFormat format = *options.format;
+    if (holds_models(format)) return format_parts(model_of(mesh), format, name);
     check_points(mesh, name);
     check_faces(mesh, name);
     FormattedMesh result;
@@ -77,26 +120,35 @@ FormattedMesh format_mesh(const PolygonMesh& mesh, const WriteOptions& options,
             detail::write_ply(result.bytes, mesh, options.ply_encoding);
             break;
         case MeshFormat::StlAscii:
-            check_triangles(mesh, name);
+            check_triangles(mesh, name, "STL");
             detail::write_stl_ascii(result.bytes, mesh);
             break;
-        case MeshFormat::Stl:
-        case MeshFormat::StlBinary:
-            check_triangles(mesh, name);
+        default:
+            check_triangles(mesh, name, "STL");
             result.report = detail::write_stl_binary(result.bytes, mesh, name);
             break;
     }
     return result;
 }
 
+FormattedMesh format_model(const Model& model, const WriteOptions& options,
+                           const std::string& name) {
+    if (!options.format) refuse(name, "no format given");
+    if (holds_models(*options.format)) return format_parts(model, *options.format, name);
+    return format_mesh(model.parts.size() == 1 ? model.parts.front().mesh : merged(model), options,
+                       name);
+}
+
 WriteReport write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh,
                        const WriteOptions& options) {
-    WriteOptions chosen = options;
-    if (!chosen.format) chosen.format = mesh_format_of_extension(path);
-    if (!chosen.format) {
-        refuse(path.string(), "the extension tells no format; known are .obj, .stl, .off and .ply");
-    }
-    const FormattedMesh formatted = format_mesh(mesh, chosen, path.string());
+    const FormattedMesh formatted = format_mesh(mesh, with_format(path, options), path.string());
+    write_file(path, formatted.bytes);
+    return formatted.report;
+}
+
+WriteReport write_model(const std::filesystem::path& path, const Model& model,
+                        const WriteOptions& options) {
+    const FormattedMesh formatted = format_model(model, with_format(path, options), path.string());
     write_file(path, formatted.bytes);
     return formatted.report;
 }

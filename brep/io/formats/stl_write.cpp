@@ -6,9 +6,9 @@
 // The normal is the direction of the cross product in double, as a courtesy to viewers; a triangle
 // without area, or one whose products overflow, gets 0 0 0, which the format allows.
 #include <trisect/brep/io/formats/binary.h>
+#include <trisect/brep/io/formats/float_points.h>
 #include <trisect/brep/io/formats/formats.h>
 #include <trisect/brep/io/formats/number_text.h>
-#include <trisect/brep/io/formats/vertex_welder.h>
 #include <trisect/kernel/number/vector3.h>
 
 #include <algorithm>
@@ -43,56 +43,6 @@ std::array<float, 3> face_normal(const PolygonMesh& mesh, std::size_t f) noexcep
     return unit_normal(mesh.points[loop[0]], mesh.points[loop[1]], mesh.points[loop[2]]);
 }
 
-/// Number of distinct points; `point(i)` is the i-th of n.
-template <class PointAt>
-std::size_t distinct(std::size_t n, const PointAt& point) {
-    std::vector<Point3d> seen;
-    seen.reserve(n);
-    VertexWelder welder(seen, n);
-    std::array<Point3d, VertexWelder::block> points;
-    std::array<std::uint32_t, VertexWelder::block> numbers;
-    for (std::size_t begin = 0; begin < n; begin += points.size()) {
-        const std::size_t count = std::min(points.size(), n - begin);
-        for (std::size_t i = 0; i < count; ++i) points[i] = point(begin + i);
-        welder.vertices({points.data(), count}, numbers.data());
-    }
-    return seen.size();
-}
-
-using Point3f = std::array<float, 3>;
-
-Point3d as_doubles(const Point3f& p) noexcept {
-    return {static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
-}
-
-/// Rounds all points to float.
-std::vector<Point3f> rounded(const PolygonMesh& mesh, const std::string& name,
-                             WriteReport& report) {
-    std::vector<Point3f> points(mesh.points.size());
-    for (std::size_t v = 0; v < points.size(); ++v) {
-        double move = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double c = mesh.points[v][k];
-            // A double that rounds beyond the largest float must not be converted at all.
-            if (std::fabs(c) > static_cast<double>(std::numeric_limits<float>::max())) {
-                throw LimitError(name + ": cannot write: vertex " + std::to_string(v) +
-                                 " has a coordinate beyond the range of binary STL (floats)");
-            }
-            points[v][k] = static_cast<float>(c);
-            move = std::max(move, std::fabs(static_cast<double>(points[v][k]) - c));
-        }
-        if (move > 0) ++report.rounded_vertices;
-        report.largest_move = std::max(report.largest_move, move);
-    }
-    report.lossless = report.rounded_vertices == 0;
-    if (!report.lossless) {
-        const std::size_t n = points.size();
-        report.merged_vertices = distinct(n, [&](std::size_t v) { return mesh.points[v]; }) -
-                                 distinct(n, [&](std::size_t v) { return as_doubles(points[v]); });
-    }
-    return points;
-}
-
 }  // namespace
 
 void write_stl_ascii(std::string& out, const PolygonMesh& mesh) {
@@ -116,7 +66,7 @@ WriteReport write_stl_binary(std::string& out, const PolygonMesh& mesh, const st
         throw LimitError(name + ": cannot write: more faces than binary STL can count");
     }
     WriteReport report;
-    const std::vector<Point3f> points = rounded(mesh, name, report);
+    const std::vector<FloatPoint> points = float_points(mesh, name, "binary STL", report);
     out.reserve(stl_header_size + mesh.face_count() * stl_record_size);
     out += "binary STL by Trisect";  // must not begin with "solid"
     out.resize(80, '\0');

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Accessors of GLB: numbers in the binary chunk.
+#pragma once
+
+#include <trisect/brep/io/models/glb_document.h>
+#include <trisect/brep/polygon_mesh.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace trisect::detail {
+
+/// Checked against the binary chunk.
+struct GlbAccessor {
+    GlbValue value;
+    const char* data = nullptr;
+    std::uint64_t stride = 0;
+    std::uint64_t count = 0;
+    std::uint64_t component = 0;  ///< the number of its type
+    std::uint64_t view = 0;
+    std::uint64_t offset = 0;  ///< in the view
+};
+
+/// \param type "SCALAR" or "VEC3"
+/// \throw InputError; UnsupportedError for external buffers, compression, and for sparse data
+/// unless that is allowed, when it is not looked at
+[[nodiscard]] GlbAccessor glb_accessor(const GlbDocument& glb, std::uint64_t index,
+                                       const GlbValue& user, const char* type,
+                                       bool allows_sparse = false);
+
+/// Points of an accessor of single precision; each must be finite.
+[[nodiscard]] std::vector<Point3d> glb_points(const GlbDocument& glb, const GlbAccessor& accessor);
+
+/// Whole numbers of 8, 16 or 32 bits.
+[[nodiscard]] std::vector<std::uint32_t> glb_indices(const GlbDocument& glb,
+                                                     const GlbAccessor& accessor);
+
+}  // namespace trisect::detail
