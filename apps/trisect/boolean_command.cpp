@@ -19,6 +19,7 @@
 #include "import_notes.h"
 #include "mesh_files.h"
 #include "operand.h"
+#include "operand_model.h"
 #include "output_name.h"
 #include "parallel_each.h"
 #include "values.h"
@@ -52,12 +53,14 @@ AssembleOptions assemble_options(const BooleanOptions& options) {
 }
 
 /// By faces: assembles, certifies or repairs, and writes.
-void deliver_brep(Session& session, const BooleanOptions& options, const Solid& solid,
-                  MeshFormat format, BooleanResult& result) {
+void deliver_brep(Session& session, const BooleanOptions& options,
+                  const std::vector<Operand>& operands, const Solid& solid, MeshFormat format,
+                  BooleanResult& result) {
     PolygonMesh mesh;
+    MeshMap map;
     const Brep brep = session.stage("assemble", [&] {
         Brep boundary = solid.to_brep(assemble_options(options));
-        mesh = to_polygon_mesh(boundary);
+        mesh = to_polygon_mesh(boundary, {}, &map);
         return boundary;
     });
     session.stage("describe", [&] {
@@ -77,13 +80,19 @@ void deliver_brep(Session& session, const BooleanOptions& options, const Solid& 
     }
     session.stage("write", [&] {
         if (!options.boundary.empty()) session.write_output(options.boundary, exact_text(brep));
-        result.written = write_output_mesh(session, options.output, format, mesh);
+        // What a repair moved has no operands any more.
+        result.written =
+            holds_models(format) && !result.rounding
+                ? write_output_model(session, options.output, format,
+                                     operand_model(mesh, map.source, operands, options.operation))
+                : write_output_mesh(session, options.output, format, mesh);
     });
 }
 
 /// By triangles alone. The certificate, the bytes and the counts are made at the same time.
-void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& solid,
-                  MeshFormat format, BooleanResult& result) {
+void deliver_mesh(Session& session, const BooleanOptions& options,
+                  const std::vector<Operand>& operands, const Solid& solid, MeshFormat format,
+                  BooleanResult& result) {
     ExactMesh exact;
     PolygonMesh mesh;
     session.stage("assemble", [&] {
@@ -95,7 +104,13 @@ void deliver_mesh(Session& session, const BooleanOptions& options, const Solid& 
         for_each_in_parallel(3, session.limits(), [&](std::size_t i) {
             if (i == 0 && options.certificate)
                 result.certificate = certify_output(exact, mesh, format);
-            if (i == 1) formatted = format_output_mesh(options.output, format, mesh);
+            if (i == 1) {
+                formatted = holds_models(format)
+                                ? format_output_model(options.output, format,
+                                                      operand_model(mesh, exact.source, operands,
+                                                                    options.operation))
+                                : format_output_mesh(options.output, format, mesh);
+            }
             if (i == 2)
                 result.description = describe(
                     exact, [&] { return solid.to_brep(); }, description_options(session, options));
@@ -223,9 +238,9 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     if (is_native) {
         deliver_native(session, options, solid, result);
     } else if (needs_brep(options)) {
-        deliver_brep(session, options, solid, format, result);
+        deliver_brep(session, options, operands, solid, format, result);
     } else {
-        deliver_mesh(session, options, solid, format, result);
+        deliver_mesh(session, options, operands, solid, format, result);
     }
     Outcome out;
     if (result.rounding && !result.rounding->certificate.holds()) out.code = exit_findings;

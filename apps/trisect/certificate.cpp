@@ -12,8 +12,7 @@ namespace trisect::app {
 namespace {
 
 Precision precision_of(MeshFormat format) {
-    const bool floats = format == MeshFormat::Stl || format == MeshFormat::StlBinary;
-    return floats ? Precision::Float : Precision::Double;
+    return holds_floats(format) ? Precision::Float : Precision::Double;
 }
 
 const char* name_of(CertifiedRounding::Outcome outcome) {

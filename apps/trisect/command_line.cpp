@@ -40,7 +40,7 @@ MeshFormat format_named(const std::string& name) {
     const auto format = mesh_format_from_name(name);
     if (format) return *format;
     throw UsageError("--format: '" + name +
-                     "' is none of obj, stl, stl-ascii, stl-binary, off, ply");
+                     "' is none of obj, stl, stl-ascii, stl-binary, off, ply, 3mf, glb, amf");
 }
 
 int lattice_exponent(const std::string& text) {

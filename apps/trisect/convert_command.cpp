@@ -40,6 +40,29 @@ LatticeReport round_to_lattice(PolygonMesh& mesh, Lattice lattice) {
     return report;
 }
 
+LatticeReport round_to_lattice(Model& model, Lattice lattice) {
+    LatticeReport sum;
+    sum.lattice = lattice;
+    for (ModelPart& part : model.parts) {
+        const LatticeReport report = round_to_lattice(part.mesh, lattice);
+        sum.lossless = sum.lossless && report.lossless;
+        sum.moved += report.moved;
+        sum.max_move = std::max(sum.max_move, report.max_move);
+        sum.flipped_faces += report.flipped_faces;
+    }
+    return sum;
+}
+
+RoundingReport apply(const ExactMap& map, Model& model) {
+    RoundingReport sum;
+    for (ModelPart& part : model.parts) {
+        const RoundingReport report = map.apply(part.mesh);
+        sum.moved += report.moved;
+        sum.max_move = std::max(sum.max_move, report.max_move);
+    }
+    return sum;
+}
+
 Json rounding_json(std::size_t moved, double max_move) {
     Json out;
     out["moved"] = moved;
@@ -106,15 +129,29 @@ Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
     check_outputs(session, {options.output});
     const ExactMap map = map_of(options);
     session.plan(3);
-    PolygonMesh mesh = session.stage("read", [&] { return read_input(session, options.input); });
-    const RoundingReport moved = session.stage("transform", [&] { return map.apply(mesh); });
+    InputModel input =
+        session.stage("read", [&] { return read_input_model(session, options.input); });
+    Model& model = input.model;
+    note_model(session, options.input, model.unit, input.report);
+    const RoundingReport moved = session.stage("transform", [&] { return apply(map, model); });
     Outcome out;
     out.document["schema"] = "trisect.convert/1";
     out.document["input"] = options.input;
     out.document["output"] = options.output;
     out.document["format"] = to_string(format);
-    out.document["vertices"] = mesh.points.size();
-    out.document["faces"] = mesh.face_count();
+    std::size_t vertices = 0;
+    std::size_t faces = 0;
+    for (const ModelPart& part : model.parts) {
+        vertices += part.mesh.points.size();
+        faces += part.mesh.face_count();
+    }
+    out.document["vertices"] = vertices;
+    out.document["faces"] = faces;
+    if (holds_models(input.format)) {
+        out.document.update(model_json(model));
+        out.document["placed"] =
+            rounding_json(input.report.rounded_vertices, input.report.largest_move);
+    }
     out.document["matrix"] = map.rows();
     out.document["rounding"] = rounding_json(moved.moved, moved.max_move);
     if (moved.moved != 0) {
@@ -123,12 +160,13 @@ Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
     }
     out.document["lattice"] = Json();
     if (session.options().lattice) {
-        const LatticeReport report = round_to_lattice(mesh, Lattice{*session.options().lattice});
+        const LatticeReport report = round_to_lattice(model, Lattice{*session.options().lattice});
         out.document["lattice"] = lattice_json(report);
         note_rounding(session, report, options.output);
     }
-    const WriteReport written = session.stage(
-        "write", [&] { return write_output_mesh(session, options.output, format, mesh); });
+    const WriteReport written = session.stage("write", [&] {
+        return write_output_model(session, options.output, format, std::move(model));
+    });
     out.document["written"] = written_json(written);
     out.document["seconds"] = session.seconds();
     return out;

@@ -67,7 +67,21 @@ void note_faces(Session& session, const ImportNote& note) {
 
 void note_imports(Session& session, std::span<const ImportNote> imports) {
     note_all_roundings(session, imports);
-    for (const ImportNote& note : imports) note_faces(session, note);
+    for (const ImportNote& note : imports) {
+        note_model(session, note.name, note.unit, note.placed);
+        note_faces(session, note);
+    }
+}
+
+void note_model(Session& session, const std::string& name, const std::string& unit,
+                const ModelReport& placed) {
+    if (!unit.empty() && unit != "millimeter") {
+        session.note(fmt::format("{}: in the unit {}; nothing is scaled", name, unit));
+    }
+    if (placed.rounded_vertices != 0) {
+        session.note(fmt::format("{}: {} vertices rounded by transforms in the file, by at most {}",
+                                 name, placed.rounded_vertices, number_text(placed.largest_move)));
+    }
 }
 
 void note_rounding(Session& session, const LatticeReport& report, const std::string& name) {

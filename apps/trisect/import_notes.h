@@ -4,6 +4,7 @@
 #pragma once
 
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/read_model.h>
 
 #include <span>
 #include <string>
@@ -16,7 +17,13 @@ namespace trisect::app {
 struct ImportNote {
     std::string name;
     ImportReport report;
+    std::string unit = {};    ///< that the file states; empty: none
+    ModelReport placed = {};  ///< by transforms in the file
 };
+
+/// A unit other than millimetres, and what transforms in the file rounded.
+void note_model(Session& session, const std::string& name, const std::string& unit,
+                const ModelReport& placed);
 
 /// At most one line about rounding, however many inputs there are, and one for each other change of
 /// an input. With --verbose one line about rounding for each input.

@@ -65,11 +65,6 @@ auto with_name(const std::string& name, Work&& work) {
     }
 }
 
-bool is_stl(MeshFormat format) {
-    return format == MeshFormat::Stl || format == MeshFormat::StlAscii ||
-           format == MeshFormat::StlBinary;
-}
-
 bool has_only_triangles(const PolygonMesh& mesh) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         if (mesh.face(f).size() != 3) return false;
@@ -85,8 +80,8 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
     const ImportedMesh imported = import_mesh(mesh, options);
     if (!imported.report.lattice.lossless) {
         throw UnsupportedError(
-            "STL holds triangles only, and the coordinates span too many bits "
-            "to cut the polygons of this mesh exactly");
+            "this format holds triangles only, and the coordinates span too many "
+            "bits to cut the polygons of this mesh exactly");
     }
     return plain_mesh(imported.mesh);
 }
@@ -101,10 +96,24 @@ void write_native_output(Session& session, const std::string& name, const Solid&
     session.write_output(name, native_bytes(solid), OutputSafety::Flushed);
 }
 
-PolygonMesh read_input(const Session& session, const std::string& name) {
-    if (has_native_name(name)) return read_native(name).to_mesh();
+InputModel read_input_model(const Session& session, const std::string& name) {
+    InputModel out;
+    if (has_native_name(name)) {
+        out.model = model_of(read_native(name).to_mesh());
+        return out;
+    }
     const InputFile file = input_file(session, name);
-    return read_mesh(file.bytes.view(), file.format, file.name);
+    out.format = file.format;
+    out.model = read_model(file.bytes.view(), file.format, file.name, {}, &out.report);
+    return out;
+}
+
+PolygonMesh one_mesh(Model&& model) {
+    return model.parts.size() == 1 ? std::move(model.parts.front().mesh) : merged(model);
+}
+
+PolygonMesh read_input(const Session& session, const std::string& name) {
+    return one_mesh(read_input_model(session, name).model);
 }
 
 RemarkedMesh read_input_with_remarks(const Session& session, const std::string& name) {
@@ -140,11 +149,18 @@ MeshFormat output_format(const Session& session, const std::string& name) {
     if (name == "-" && common.json) {
         throw UsageError("--json and '-o -' both want the standard output");
     }
+    const auto format = common.format ? common.format : mesh_format_of_extension(name);
+    if (format == MeshFormat::Amf) throw UnsupportedError(name + ": AMF is read, not written");
+    if (format && !is_available(*format)) {
+        throw UnsupportedError(
+            fmt::format("{}: this build does not write {}", name, to_string(*format)));
+    }
     if (common.format) return *common.format;
     if (name == "-") throw UsageError("'-o -' needs --format");
-    if (const auto format = mesh_format_of_extension(name)) return *format;
+    if (format) return *format;
     throw UsageError(fmt::format(
-        "{}: the extension tells no format; known are .obj .stl .off .ply (or use --format)",
+        "{}: the extension tells no format; known are .obj .stl .off .ply .3mf .glb (or "
+        "use --format)",
         name));
 }
 
@@ -152,8 +168,20 @@ FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
                                  const PolygonMesh& mesh) {
     WriteOptions options;
     options.format = format;
-    const bool cut = is_stl(format) && !has_only_triangles(mesh);
+    const bool cut = holds_triangles_only(format) && !has_only_triangles(mesh);
     return format_mesh(cut ? triangulated(mesh) : mesh, options, name);
+}
+
+FormattedMesh format_output_model(const std::string& name, MeshFormat format, Model model) {
+    if (!holds_models(format)) return format_output_mesh(name, format, one_mesh(std::move(model)));
+    for (ModelPart& part : model.parts) {
+        if (has_only_triangles(part.mesh)) continue;
+        part.mesh = triangulated(part.mesh);
+        part.materials.clear();
+    }
+    WriteOptions options;
+    options.format = format;
+    return format_model(model, options, name);
 }
 
 WriteReport write_output_mesh(Session& session, const std::string& name,
@@ -161,7 +189,7 @@ WriteReport write_output_mesh(Session& session, const std::string& name,
     session.write_output(name, formatted.bytes);
     if (!formatted.report.lossless) {
         session.note(fmt::format(
-            "{}: {} vertices rounded to the floats of binary STL, by at most {}", name,
+            "{}: {} vertices rounded to the floats of this format, by at most {}", name,
             formatted.report.rounded_vertices, number_text(formatted.report.largest_move)));
     }
     return formatted.report;
@@ -170,6 +198,11 @@ WriteReport write_output_mesh(Session& session, const std::string& name,
 WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
                               const PolygonMesh& mesh) {
     return write_output_mesh(session, name, format_output_mesh(name, format, mesh));
+}
+
+WriteReport write_output_model(Session& session, const std::string& name, MeshFormat format,
+                               Model model) {
+    return write_output_mesh(session, name, format_output_model(name, format, std::move(model)));
 }
 
 PolygonMesh plain_mesh(const LatticeMesh& mesh) {

@@ -7,7 +7,8 @@
 
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/file_remarks.h>
-#include <trisect/brep/io/write_mesh.h>
+#include <trisect/brep/io/read_model.h>
+#include <trisect/brep/io/write_model.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/solid.h>
@@ -43,8 +44,19 @@ private:
 [[nodiscard]] bool has_native_name(const std::string& name);
 void write_native_output(Session& session, const std::string& name, const Solid& solid);
 
+/// A file with its parts, which other formats than 3MF, GLB and AMF have one of.
+struct InputModel {
+    Model model;
+    MeshFormat format = MeshFormat::Off;
+    ModelReport report;
+};
+
 /// "-" is the standard input, whose format is that of --format or else shown by its content.
+[[nodiscard]] InputModel read_input_model(const Session& session, const std::string& name);
+
+/// The same as one mesh of all parts, which meets itself where they do.
 [[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);
+[[nodiscard]] PolygonMesh one_mesh(Model&& model);
 
 /// The same with what there is to say about the file; costs another pass over it.
 struct RemarkedMesh {
@@ -69,13 +81,18 @@ void check_standard_input(std::span<const std::string> names);
 /// \throw UsageError when nothing tells it, or when a mesh and --json want the standard output.
 [[nodiscard]] MeshFormat output_format(const Session& session, const std::string& name);
 
-/// The bytes of a result. STL gets triangles only. For any thread.
+/// The bytes of a result. STL, 3MF and GLB get triangles only. For any thread.
 [[nodiscard]] FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
                                                const PolygonMesh& mesh);
+/// The same. Faces that must be cut lose the materials of their part.
+[[nodiscard]] FormattedMesh format_output_model(const std::string& name, MeshFormat format,
+                                                Model model);
 /// Writes them, and remarks what the format changed.
 WriteReport write_output_mesh(Session& session, const std::string& name,
                               const FormattedMesh& formatted);
 /// Both.
+WriteReport write_output_model(Session& session, const std::string& name, MeshFormat format,
+                               Model model);
 WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
                               const PolygonMesh& mesh);
 

@@ -93,12 +93,19 @@ ReadOperand read_exact_operand(const Session& session, const std::string& name,
 
 ReadOperand read_mesh_operand(const Session& session, const std::string& name,
                               const OperandOptions& options) {
-    const PolygonMesh mesh = read_input(session, name);
+    InputModel input = read_input_model(session, name);
+    const std::string unit = input.model.unit;
+    const std::size_t parts = input.model.parts.size();
+    const PolygonMesh mesh = one_mesh(std::move(input.model));
     ImportedMesh imported = import_input(session, mesh, name);
     require_solid(imported, name, options);
     ReadOperand out;
     out.facts = facts_of(imported, name, mesh.face_count());
-    out.note = {name, std::move(imported.report)};
+    if (holds_models(input.format)) {
+        out.facts["unit"] = unit.empty() ? Json() : Json(unit);
+        out.facts["parts"] = parts;
+    }
+    out.note = {name, std::move(imported.report), unit, input.report};
     const bool is_free = options.assume_embedded || is_embedded(imported.mesh);
     out.embedding = is_free ? Embedding::Assume : Embedding::Check;
     out.mesh = std::move(imported.mesh);

@@ -46,6 +46,20 @@ Json remarks_json(std::span<const FileRemark> remarks) {
     return list;
 }
 
+Json model_json(const Model& model) {
+    Json out;
+    out["unit"] = model.unit.empty() ? Json() : Json(model.unit);
+    out["parts"] = Json::array();
+    for (const ModelPart& part : model.parts) {
+        Json entry;
+        entry["name"] = part.name;
+        entry["vertices"] = part.mesh.points.size();
+        entry["faces"] = part.mesh.face_count();
+        out["parts"].push_back(std::move(entry));
+    }
+    return out;
+}
+
 Json lattice_json(const LatticeReport& report) {
     Json out;
     out["exponent"] = report.lattice.exponent;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <trisect/brep/io/file_remarks.h>
+#include <trisect/brep/io/model.h>
 #include <trisect/brep/validate/defect.h>
 
 #include <span>
@@ -18,6 +19,8 @@ namespace trisect::app {
 [[nodiscard]] Json defect_counts_json(const ValidationReport& report);
 /// kind, count, of, line and column or offset, sentence.
 [[nodiscard]] Json remarks_json(std::span<const FileRemark> remarks);
+/// unit, and of each part name, vertices and faces.
+[[nodiscard]] Json model_json(const Model& model);
 /// exponent, lossless, moved, max_move.
 [[nodiscard]] Json lattice_json(const LatticeReport& report);
 

@@ -47,6 +47,23 @@ TEST_F(BooleanCommand, CountsAreThoseOfTheFileWhereTheResultTouchesItself) {
         EXPECT_EQ(written[key], read[key]) << key;
 }
 
+TEST_F(BooleanCommand, OperandsAreMaterials) {
+    const Finished result = trisect({"difference", a_, b_, "-o", path("out.glb")});
+    if (result.code == 7) GTEST_SKIP() << "built without GLB";
+    ASSERT_EQ(result.code, 0) << result.err;
+    const std::string bytes = read(path("out.glb"));
+    const json document = json::parse(bytes.substr(20, bytes.find("BIN") - 24));
+    ASSERT_EQ(document["materials"].size(), 2U);
+    EXPECT_EQ(document["materials"][0]["name"], "a.obj");
+    EXPECT_EQ(document["materials"][1]["name"], "b.obj");
+    const json& primitives = document["meshes"][0]["primitives"];
+    ASSERT_EQ(primitives.size(), 2U);
+    // Three faces of the corner that is taken away, of two triangles each.
+    EXPECT_EQ(document["accessors"][primitives[1]["indices"].get<std::size_t>()]["count"], 18);
+    EXPECT_EQ(trisect({"difference", a_, b_, "-o", path("out.off")}).code, 0);
+    EXPECT_EQ(trisect({"diff", path("out.off"), path("out.glb")}).code, 0);
+}
+
 TEST_F(BooleanCommand, FirstBadInputIsReported) {
     const std::string open = open_box("open.obj");
     const Finished missing = trisect({"union", a_, path("none.obj"), open, "-o", out_});

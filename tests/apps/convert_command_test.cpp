@@ -38,6 +38,45 @@ TEST_F(ConvertCommand, EveryFormatIsReadBack) {
     EXPECT_EQ(info(path("b.stl"))["faces"], 12);  // STL knows triangles only
 }
 
+TEST_F(ConvertCommand, ModelsAreReadBack) {
+    for (const char* name : {"b.3mf", "b.glb"}) {
+        const Finished written = trisect({"convert", box_, "-o", path(name)});
+        if (written.code == 7) GTEST_SKIP() << "built without " << name;
+        ASSERT_EQ(written.code, 0) << name;
+        const json description = info(path(name));
+        EXPECT_EQ(description["volume"], 6) << name;
+        EXPECT_EQ(description["vertices"], 8) << name;
+        EXPECT_EQ(description["faces"], 12) << name;
+        EXPECT_EQ(description["parts"].size(), 1U) << name;
+        EXPECT_EQ(trisect({"diff", box_, path(name)}).code, 0) << name;
+    }
+    EXPECT_EQ(info(path("b.3mf"))["unit"], "millimeter");
+    EXPECT_EQ(trisect({"convert", box_, "-o", path("b.amf")}).code, 7);
+}
+
+TEST_F(ConvertCommand, PartsAndUnitsAreKept) {
+    const std::string coordinates =
+        "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
+        "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
+        "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex>";
+    const std::string object = "<mesh><vertices>" + coordinates +
+                               "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3>"
+                               "</triangle></volume></mesh></object>";
+    const std::string amf = write(
+        "a.amf", "<amf unit=\"inch\"><object id=\"1\"><metadata type=\"name\">first</metadata>" +
+                     object + "<object id=\"2\">" + object + "</amf>");
+    const Finished written =
+        trisect({"convert", amf, "-o", path("a.3mf"), "--scale", "2", "--json"});
+    if (written.code == 7) GTEST_SKIP() << "built without 3MF";
+    ASSERT_EQ(written.code, 0);
+    EXPECT_NE(written.err.find("in the unit inch"), std::string::npos) << written.err;
+    const json description = info(path("a.3mf"));
+    EXPECT_EQ(description["unit"], "inch");
+    ASSERT_EQ(description["parts"].size(), 2U);
+    EXPECT_EQ(description["parts"][0]["name"], "first");
+    EXPECT_EQ(description["bounds"]["upper"], json::array({2, 2, 0}));
+}
+
 TEST_F(ConvertCommand, FormatOverridesTheName) {
     ASSERT_EQ(trisect({"convert", box_, "-o", out_, "--format", "stl-ascii"}).code, 0);
     EXPECT_EQ(read(out_).substr(0, 5), "solid");

@@ -91,8 +91,8 @@ private:
         return out;
     }
 
-    /// The roots of the scene that the file shows; without scenes, nodes that are no
-    /// children.
+    /// The roots of the scene that the file shows; without scenes, nodes that no
+    /// node has.
     std::vector<std::uint64_t> scene_nodes() const {
         const GlbValue root = glb_.root();
         if (!glb_.array(root, "scenes").empty()) {

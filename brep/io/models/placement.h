@@ -37,8 +37,9 @@ private:
     [[nodiscard]] const ExactRational& at(std::size_t row, std::size_t column) const {
         return rows_[4 * row + column];
     }
-    [[nodiscard]] bool apply_in_doubles(const Point3d& p, Point3d& image) const;
-    void note_simple_rows();
+    [[nodiscard]] bool apply_in_doubles(const Point3d& p, Point3d& image, double& largest) const;
+    [[nodiscard]] bool apply_in_pairs(const Point3d& p, Point3d& image, double& largest) const;
+    void note_rows();
 
     std::array<ExactRational, 12> rows_;
     // Rows with one entry, which is a power of two with a sign: factor, column and translation.
@@ -49,6 +50,9 @@ private:
     };
     std::array<SimpleRow, 3> simple_;
     bool is_simple_ = true;
+    // The rows as doubles, and what these lack of them.
+    std::array<double, 12> high_{};
+    std::array<double, 12> low_{};
 };
 
 /// Adds a mesh where the placement puts it, after what the part has.

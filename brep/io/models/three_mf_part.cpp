@@ -297,7 +297,7 @@ private:
     const InputText& source_;
     std::vector<Kind> around_{Kind::Document};
     std::map<std::string, std::string> prefixes_;
-    std::unordered_map<std::uint64_t, Group> resources_;
+    std::map<std::uint64_t, Group> resources_;
     std::uint64_t group_ = 0;
     ThreeMfObject object_;
     std::uint64_t object_id_ = 0;

@@ -9,9 +9,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace trisect::detail {
@@ -45,7 +45,7 @@ struct ThreeMfPart {
     InputText source;
     std::string unit = "millimeter";
     std::vector<ModelMaterial> materials;
-    std::unordered_map<std::uint64_t, ThreeMfObject> objects;
+    std::map<std::uint64_t, ThreeMfObject> objects;
     std::vector<ThreeMfUse> items;
     bool has_build = false;
 };
