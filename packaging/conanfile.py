@@ -43,6 +43,7 @@ class TrisectConan(ConanFile):
         for name in ("APPS", "TESTS", "EXAMPLES", "C", "PYTHON", "MANIFOLD", "BENCH"):
             toolchain.cache_variables[f"TRISECT_BUILD_{name}"] = False
         toolchain.cache_variables["TRISECT_INSTALL"] = True
+        toolchain.cache_variables["TRISECT_WITH_3MF"] = False
         toolchain.cache_variables["TRISECT_WITH_TBB"] = bool(self.options.with_tbb)
         gmp = pathlib.Path(self.dependencies["gmp"].package_folder)
         toolchain.cache_variables["CMAKE_PREFIX_PATH"] = gmp.as_posix()

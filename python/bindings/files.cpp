@@ -25,8 +25,9 @@ std::optional<MeshFormat> format_of(const std::optional<std::string>& name) {
     if (!name) return std::nullopt;
     const auto format = mesh_format_from_name(*name);
     if (!format)
-        throw UsageError("format: '" + *name +
-                         "' is none of obj, stl, stl-ascii, stl-binary, off and ply");
+        throw UsageError(
+            "format: '" + *name +
+            "' is none of obj, stl, stl-ascii, stl-binary, off, ply, 3mf, glb and amf");
     return format;
 }
 
@@ -64,14 +65,14 @@ void bind_files(py::module_& m) {
             return import_solid(mesh, options);
         },
         py::arg("path"), py::kw_only(), py::arg("embedding") = "check",
-        py::arg("format") = py::none(), R"(The solid of an OBJ, STL, OFF or PLY file.
+        py::arg("format") = py::none(), R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB or AMF file.
 
 Parameters
 ----------
 path : path_like
 embedding : {'check', 'assume', 'resolve'}
     See `Solid`; files are checked by default.
-format : {'obj', 'stl', 'stl-ascii', 'stl-binary', 'off', 'ply'}, optional
+format : {'obj', 'stl', 'stl-ascii', 'stl-binary', 'off', 'ply', '3mf', 'glb', 'amf'}, optional
     By default the extension decides, else the content.
 
 Raises
@@ -89,7 +90,7 @@ InvalidSolid
             run_on_threads([&](std::uint32_t n) { write_mesh(path, s.to_mesh(n), writing); });
         },
         py::arg("path"), py::kw_only(), py::arg("format") = py::none(),
-        "Writes the triangles of `mesh` to an OBJ, STL, OFF or PLY file.");
+        "Writes the triangles of `mesh` to an OBJ, STL, OFF, PLY, 3MF or GLB file.");
     m.def(
         "read_mesh",
         [](const std::filesystem::path& path, const std::optional<std::string>& format) {

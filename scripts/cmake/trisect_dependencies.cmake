@@ -34,28 +34,33 @@ if(NOT TARGET trisect::gmp)
     endif()
 endif()
 
-# 3MF and AMF take libzip and expat; without them these formats are refused by name. An installed
-# package asks for what it was built with.
-if(NOT DEFINED TRISECT_WITH_3MF)
-    set(TRISECT_WITH_3MF ON)
+# 3MF and AMF take libzip and expat; a build that does not find them refuses these formats by name. An
+# installed package names those that it was built with.
+if(NOT DEFINED TRISECT_LIBRARIES_OF_3MF)
+    set(TRISECT_LIBRARIES_OF_3MF "")
+    if(TRISECT_WITH_3MF AND NOT TRISECT_FEW_COMMANDS)
+        set(TRISECT_LIBRARIES_OF_3MF zip expat)
+    endif()
 endif()
-if(TRISECT_WITH_3MF AND NOT TRISECT_FEW_COMMANDS)
-    foreach(name IN ITEMS zip expat)
-        if(TARGET trisect::${name})
-            continue()
-        endif()
-        string(TOUPPER ${name} upper)
-        find_library(TRISECT_${upper}_LIBRARY ${name})
-        find_path(TRISECT_${upper}_INCLUDE_DIR ${name}.h)
-        mark_as_advanced(TRISECT_${upper}_LIBRARY TRISECT_${upper}_INCLUDE_DIR)
-        if(TRISECT_${upper}_LIBRARY AND TRISECT_${upper}_INCLUDE_DIR)
-            add_library(trisect::${name} UNKNOWN IMPORTED)
-            set_target_properties(
-                trisect::${name}
-                PROPERTIES
-                    IMPORTED_LOCATION "${TRISECT_${upper}_LIBRARY}"
-                    INTERFACE_INCLUDE_DIRECTORIES "${TRISECT_${upper}_INCLUDE_DIR}"
-            )
-        endif()
-    endforeach()
-endif()
+foreach(name IN LISTS TRISECT_LIBRARIES_OF_3MF)
+    if(TARGET trisect::${name})
+        continue()
+    endif()
+    string(TOUPPER ${name} upper)
+    find_library(TRISECT_${upper}_LIBRARY ${name})
+    find_path(TRISECT_${upper}_INCLUDE_DIR ${name}.h)
+    mark_as_advanced(TRISECT_${upper}_LIBRARY TRISECT_${upper}_INCLUDE_DIR)
+    if(TRISECT_${upper}_LIBRARY AND TRISECT_${upper}_INCLUDE_DIR)
+        add_library(trisect::${name} UNKNOWN IMPORTED)
+        set_target_properties(
+            trisect::${name}
+            PROPERTIES
+                IMPORTED_LOCATION "${TRISECT_${upper}_LIBRARY}"
+                INTERFACE_INCLUDE_DIRECTORIES "${TRISECT_${upper}_INCLUDE_DIR}"
+        )
+    elseif(CMAKE_FIND_PACKAGE_NAME STREQUAL "trisect")
+        set(trisect_FOUND FALSE)
+        set(trisect_NOT_FOUND_MESSAGE "Trisect was built with ${name} (Debian: libzip-dev, libexpat1-dev)")
+        return()
+    endif()
+endforeach()

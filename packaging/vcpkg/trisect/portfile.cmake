@@ -16,6 +16,7 @@ vcpkg_cmake_configure(
         -DTRISECT_BUILD_EXAMPLES=OFF
         -DTRISECT_BUILD_C=OFF
         -DTRISECT_BUILD_MANIFOLD=OFF
+        -DTRISECT_WITH_3MF=OFF
 )
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(PACKAGE_NAME trisect CONFIG_PATH lib/cmake/trisect)
