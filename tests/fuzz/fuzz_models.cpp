@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Fuzzing of the readers of models. The first byte of an input chooses the format, unless
+// TRISECT_FUZZ_FORMAT says its number: GLB, AMF, the model part of a 3MF package (packed here,
+// since checksums stop mutations of packed text), and whole 3MF packages. Any model that is read
+// must keep its invariants and come back from what is written of it.
+#include <trisect/brep/io/models/zip_archive.h>
+#include <trisect/brep/io/read_model.h>
+#include <trisect/brep/io/write_model.h>
+#include <trisect/kernel/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+namespace {
+
+using trisect::MeshFormat;
+using trisect::Model;
+using trisect::ModelPart;
+
+void require(bool condition) {
+    if (!condition) std::abort();
+}
+
+void check_invariants(const Model& model) {
+    for (const ModelPart& part : model.parts) {
+        const auto& mesh = part.mesh;
+        require(mesh.face_begin.front() == 0 && mesh.face_begin.back() == mesh.corners.size());
+        for (std::size_t f = 0; f < mesh.face_count(); ++f) require(mesh.face(f).size() == 3);
+        for (const std::uint32_t corner : mesh.corners) require(corner < mesh.points.size());
+        for (const auto& p : mesh.points)
+            for (const double c : p) require(std::isfinite(c));
+        require(part.materials.empty() || part.materials.size() == mesh.face_count());
+        for (const std::uint32_t m : part.materials)
+            require(m == trisect::no_material || m < model.materials.size());
+    }
+}
+
+bool is_plain(const std::string& text) {
+    return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
+}
+
+void check(const Model& model) {
+    check_invariants(model);
+    const auto file = trisect::format_model(model, {.format = MeshFormat::ThreeMf});
+    Model again = trisect::read_model(file.bytes, MeshFormat::ThreeMf, "again");
+    check_invariants(again);
+    Model expected = model;
+    std::erase_if(expected.parts, [](const ModelPart& p) { return p.mesh.face_count() == 0; });
+    require(again.parts.size() == expected.parts.size());
+    for (std::size_t i = 0; i < again.parts.size(); ++i) {
+        require(again.parts[i].mesh == expected.parts[i].mesh);
+        require(again.parts[i].materials == expected.parts[i].materials);
+        if (is_plain(expected.parts[i].name))
+            require(again.parts[i].name == expected.parts[i].name);
+    }
+    const auto glb = trisect::format_model(model, {.format = MeshFormat::Glb});
+    Model from_glb = trisect::read_model(glb.bytes, MeshFormat::Glb, "again");
+    check_invariants(from_glb);
+    require(trisect::merged(from_glb).face_count() == trisect::merged(expected).face_count());
+}
+
+constexpr const char* relations =
+    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
+    "<Relationship Id=\"a\" Target=\"/a\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>";
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const char* const only = std::getenv("TRISECT_FUZZ_FORMAT");
+    if (size == 0) return 0;
+    const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+    const auto choice = (only != nullptr ? std::strtoul(only, nullptr, 10) : data[0]) % 4;
+    trisect::ReadOptions options;
+    options.limits.vertices = 20'000;
+    options.limits.faces = 20'000;
+    options.limits.instances = 200;
+    options.limits.nesting = 16;
+    options.limits.unpacked_bytes = 1 << 20;
+    try {
+        if (choice == 0) check(trisect::read_model(bytes, MeshFormat::Glb, "fuzz", options));
+        if (choice == 1) check(trisect::read_model(bytes, MeshFormat::Amf, "fuzz", options));
+        if (choice == 2) {
+            const std::string package =
+                trisect::detail::zip_bytes({{"_rels/.rels", relations}, {"a", std::string(bytes)}});
+            check(trisect::read_model(package, MeshFormat::ThreeMf, "fuzz", options));
+        }
+        if (choice == 3) check(trisect::read_model(bytes, MeshFormat::ThreeMf, "fuzz", options));
+    } catch (const trisect::Error& e) {
+        require(e.code() != trisect::ErrorCode::Internal);
+    }
+    return 0;
+}
