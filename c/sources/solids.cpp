@@ -13,6 +13,7 @@
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>
 
 #include "call.h"
@@ -93,18 +94,32 @@ trisect_status trisect_solid_torus(double major_radius, double minor_radius,
     });
 }
 
+namespace {
+
+bool has_native_name(const std::string& name) { return name.ends_with(".trisect"); }
+
+}  // namespace
+
 trisect_status trisect_solid_read(const char* path, const trisect_solid_options* options,
                                   trisect_solid** solid) {
     return make_handle(solid, "solid", [&] {
-        return Solid::from_mesh(read_mesh(std::string(&required(path, "path"))),
-                                c::options_of(options));
+        const std::string name = &required(path, "path");
+        if (!has_native_name(name))
+            return Solid::from_mesh(read_mesh(name), c::options_of(options));
+        return read_native(name,
+                           {.names = NativeNames::Fresh, .threads = c::limits_of_thread().threads});
     });
 }
 
 trisect_status trisect_solid_write(const trisect_solid* solid, const char* path) {
     return c::call([&] {
-        write_mesh(std::string(&required(path, "path")),
-                   required(solid, "solid").solid.to_mesh(c::limits_of_thread().threads));
+        const std::string name = &required(path, "path");
+        const Solid& written = required(solid, "solid").solid;
+        const std::uint32_t threads = c::limits_of_thread().threads;
+        if (has_native_name(name))
+            write_native(written, name, {.threads = threads});
+        else
+            write_mesh(name, written.to_mesh(threads));
     });
 }
 

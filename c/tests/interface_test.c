@@ -238,6 +238,24 @@ static void test_files(void) {
     trisect_solid_free(a);
 }
 
+static void test_native_files(void) {
+    const char* name = "c_interface_test.trisect";
+    const double plane[4] = {0, 0, 1, 0};
+    trisect_solid* below = NULL;
+    EXPECT_OK(trisect_solid_half_space(plane, &below));
+    EXPECT_OK(trisect_solid_write(below, name));
+    trisect_solid* again = NULL;
+    EXPECT_OK(trisect_solid_read(name, NULL, &again));
+    int equal = 0;
+    EXPECT_OK(trisect_solid_equals(below, again, &equal));
+    EXPECT(equal);
+    trisect_solid_free(again);
+    trisect_solid_free(below);
+    remove(name);
+    EXPECT(trisect_solid_read(name, NULL, &again) == TRISECT_INPUT);
+    EXPECT(again == NULL);
+}
+
 static void test_queries(void) {
     trisect_solid* a = box(0, 0, 0, 2, 2, 2);
     const double points[15] = {1, 1, 1, 3, 1, 1, 2, 1, 1, 2, 2, 1, 2, 2, 2};
@@ -397,6 +415,7 @@ int main(void) {
     test_meshes_and_measures();
     test_exact_text();
     test_files();
+    test_native_files();
     test_queries();
     test_interference();
     test_scene();

@@ -135,7 +135,8 @@ TRISECT_C_API trisect_status trisect_solid_sphere(double radius, uint32_t subdiv
 TRISECT_C_API trisect_status trisect_solid_torus(double major_radius, double minor_radius,
                                                  uint32_t major_segments, uint32_t minor_segments,
                                                  trisect_solid** solid);
-/* OBJ, STL, OFF or PLY. */
+/* OBJ, STL, OFF or PLY; or a native file, where the name ends in .trisect, which has the solid to
+ * the last bit. Its faces name operands by numbers that nothing else in this process has. */
 TRISECT_C_API trisect_status trisect_solid_read(const char* path,
                                                 const trisect_solid_options* options,
                                                 trisect_solid** solid);

@@ -9,6 +9,7 @@
 
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/io/write_mesh.h>
+#include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>
 
 #include "arrays.h"
@@ -50,29 +51,50 @@ py::object face_arrays(PolygonMesh&& mesh) {
     return faces;
 }
 
+// Native files are for solids only: a mesh has no tree.
+bool is_native_file(const std::filesystem::path& path, const std::optional<std::string>& format) {
+    return format ? *format == "trisect" : path.extension() == ".trisect";
+}
+
+Solid read_solid(const std::filesystem::path& path, const std::string& embedding,
+                 const std::optional<std::string>& format) {
+    SolidOptions options;
+    options.embedding = embedding_of(embedding);
+    if (is_native_file(path, format)) return solid_of(run([&] { return NativeFile::open(path); }));
+    const ReadOptions reading{format_of(format), {}};
+    const PolygonMesh mesh = run([&] { return read_mesh(path, reading); });
+    return import_solid(mesh, options);
+}
+
+void write_solid(const Solid& solid, const std::filesystem::path& path,
+                 const std::optional<std::string>& format) {
+    if (is_native_file(path, format)) {
+        run_on_threads([&](std::uint32_t threads) {
+            NativeWriteOptions options;
+            options.threads = threads;
+            write_native(solid, path, options);
+        });
+        return;
+    }
+    const WriteOptions writing{format_of(format), PlyEncoding::BinaryLittleEndian};
+    run_on_threads(
+        [&](std::uint32_t threads) { write_mesh(path, solid.to_mesh(threads), writing); });
+}
+
 }  // namespace
 
 void bind_files(py::module_& m) {
     py::class_<Solid> c = solid_class(m);
-    c.def_static(
-        "read",
-        [](const std::filesystem::path& path, const std::string& embedding,
-           const std::optional<std::string>& format) {
-            SolidOptions options;
-            options.embedding = embedding_of(embedding);
-            const ReadOptions reading{format_of(format), {}};
-            const PolygonMesh mesh = run([&] { return read_mesh(path, reading); });
-            return import_solid(mesh, options);
-        },
-        py::arg("path"), py::kw_only(), py::arg("embedding") = "check",
-        py::arg("format") = py::none(), R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB or AMF file.
+    c.def_static("read", &read_solid, py::arg("path"), py::kw_only(),
+                 py::arg("embedding") = "check", py::arg("format") = py::none(),
+                 R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB or AMF file, or of a native one (``.trisect``).
 
 Parameters
 ----------
 path : path_like
 embedding : {'check', 'assume', 'resolve'}
-    See `Solid`; files are checked by default.
-format : {'obj', 'stl', 'stl-ascii', 'stl-binary', 'off', 'ply', '3mf', 'glb', 'amf'}, optional
+    See `Solid`; meshes are checked by default.
+format : {'obj', 'stl', 'stl-ascii', 'stl-binary', 'off', 'ply', '3mf', 'glb', 'amf', 'trisect'}, optional
     By default the extension decides, else the content.
 
 Raises
@@ -83,14 +105,11 @@ InvalidSolid
     When it bounds no solid.
 )");
     c.def(
-        "write",
-        [](const Solid& s, const std::filesystem::path& path,
-           const std::optional<std::string>& format) {
-            const WriteOptions writing{format_of(format), PlyEncoding::BinaryLittleEndian};
-            run_on_threads([&](std::uint32_t n) { write_mesh(path, s.to_mesh(n), writing); });
-        },
-        py::arg("path"), py::kw_only(), py::arg("format") = py::none(),
-        "Writes the triangles of `mesh` to an OBJ, STL, OFF, PLY, 3MF or GLB file.");
+        "write", &write_solid, py::arg("path"), py::kw_only(), py::arg("format") = py::none(),
+        R"(Writes the triangles of `mesh` to an OBJ, STL, OFF, PLY, 3MF or GLB file, or the solid to a native one.
+
+A native file (``.trisect``) has the solid to the last bit, with its tree and the names of its faces.
+)");
     m.def(
         "read_mesh",
         [](const std::filesystem::path& path, const std::optional<std::string>& format) {

@@ -9,6 +9,8 @@
 #include <pybind11/stl.h>
 
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/io/exact_boundary.h>
+#include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 
@@ -125,9 +127,13 @@ void bind_operators(py::class_<Solid>& c) {
             "__invert__", [](const Solid& a) { return evaluated(~Expression(a)); }, "Complement.");
 }
 
+Solid solid_of_bytes(const py::bytes& data) {
+    return solid_of(NativeFile::of_bytes(std::string(data), "bytes of a solid"));
+}
+
 void bind_copies(py::class_<Solid>& c) {
     c.def(
-         "exact_text", [](const Solid& s) { return exact_state(s).text; },
+         "exact_text", [](const Solid& s) { return exact_boundary_text(s); },
          R"(The boundary as exact text, which `from_exact_text` reads back to the last bit.
 
 The boundary of a complement is that of the set itself.
@@ -140,7 +146,7 @@ UnsupportedError
         .def_static(
             "from_exact_text",
             [](const std::string& text) {
-                return solid_of({text, false});
+                return run([&] { return Solid::from_brep(read_exact(text, "exact text")); });
             },
             py::arg("text"), R"(The solid of a text that `exact_text` or ``--boundary`` made.
 
@@ -149,18 +155,33 @@ Raises
 InputError
     With line and column, for what does not follow the format.
 )")
+        .def(
+            "to_bytes", [](const Solid& s) { return py::bytes(native_bytes_of(s)); },
+            R"(What a native file of the solid holds: its tree, its exact boundary, the names of its faces.
+
+`write` writes the same to a file whose name ends in ``.trisect``, and `pickle` keeps it.
+)")
+        .def_static(
+            "from_bytes", [](const py::bytes& data) { return solid_of_bytes(data); },
+            py::arg("data"), R"(The solid of what `to_bytes` made, to the last bit.
+
+Faces keep their numbers. Operands have numbers that nothing else in this process has, in the order
+that they had, since the bytes may come from another one.
+
+Raises
+------
+InputError
+    With the place, for what is cut off, damaged, of another version, or impossible.
+)")
         .def("__copy__", [](const Solid& s) { return s; })
         .def(
             "__deepcopy__", [](const Solid& s, const py::dict&) { return s; }, py::arg("memo"))
         .def(py::pickle(
-            [](const Solid& s) {
-                ExactState state = exact_state(s);
-                return py::make_tuple(1, py::str(state.text), state.is_complement);
-            },
+            [](const Solid& s) { return py::make_tuple(2, py::bytes(native_bytes_of(s))); },
             [](const py::tuple& t) {
-                if (t.size() != 3 || t[0].cast<int>() != 1)
+                if (t.size() != 2 || t[0].cast<int>() != 2)
                     throw UsageError("this pickle of a Solid is of another version");
-                return solid_of({t[1].cast<std::string>(), t[2].cast<bool>()});
+                return solid_of_bytes(t[1].cast<py::bytes>());
             }));
 }
 

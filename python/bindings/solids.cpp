@@ -56,20 +56,29 @@ Solid evaluated(const Expression& formula, EvaluateOptions::Winding winding) {
     });
 }
 
-ExactState exact_state(const Solid& solid) {
+std::string exact_boundary_text(const Solid& solid) {
     return run([&] {
-        if (solid.is_whole_space()) return ExactState{exact_text(Brep()), true};
+        if (solid.is_whole_space()) return exact_text(Brep());
         Brep brep = solid.to_brep();
-        const bool is_complement = volume(brep) < 0;
-        if (is_complement) brep = evaluate(~solid).to_brep();
-        return ExactState{exact_text(brep), is_complement};
+        if (volume(brep) < 0) brep = evaluate(~solid).to_brep();
+        return exact_text(brep);
     });
 }
 
-Solid solid_of(const ExactState& state) {
-    return run([&] {
-        const Solid solid = Solid::from_brep(read_exact(state.text, "exact text"));
-        return state.is_complement ? evaluate(~solid) : solid;
+std::string native_bytes_of(const Solid& solid) {
+    return run_on_threads([&](std::uint32_t threads) {
+        NativeWriteOptions options;
+        options.threads = threads;
+        return native_bytes(solid, options);
+    });
+}
+
+Solid solid_of(const NativeFile& file) {
+    return run_on_threads([&](std::uint32_t threads) {
+        NativeReadOptions options;
+        options.names = NativeNames::Fresh;
+        options.threads = threads;
+        return file.solid(options);
     });
 }
 

@@ -11,6 +11,7 @@
 
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>
 
 namespace trisect::python {
@@ -32,13 +33,13 @@ namespace py = pybind11;
 [[nodiscard]] Solid evaluated(const Expression& formula, EvaluateOptions::Winding winding =
                                                              EvaluateOptions::Winding::Positive);
 
-/// A boundary as exact text, and whether the solid is the complement of what it bounds.
-struct ExactState {
-    std::string text;
-    bool is_complement = false;
-};
-[[nodiscard]] ExactState exact_state(const Solid& solid);
-/// \throw as read_exact and Solid::from_brep
-[[nodiscard]] Solid solid_of(const ExactState& state);
+/// The boundary as exact text; of a complement, that of the set itself.
+[[nodiscard]] std::string exact_boundary_text(const Solid& solid);
+
+/// What a native file of it holds.
+[[nodiscard]] std::string native_bytes_of(const Solid& solid);
+/// Its faces name operands by numbers that nothing else in this process has: the file may come from
+/// another one. \throw InputError with the place of what is damaged
+[[nodiscard]] Solid solid_of(const NativeFile& file);
 
 }  // namespace trisect::python

@@ -228,6 +228,8 @@ def test_copies(two_boxes):
         lambda: Solid.box((0.1, 0.2, 0.3), (1.1, 1.2, 1.3)),
         lambda: Solid.sphere(1, 2) - Solid.sphere(1, 2).rotate((1, 2, 3), 20).translate((0.5, 0, 0)),
         lambda: ~Solid.box((0, 0, 0), (1, 1, 1)),
+        lambda: Solid.half_space((0, 0, 1, 0)),
+        lambda: Solid.half_space((0, 0, 1, 0)) - Solid.sphere(1, 2),
     ],
 )
 def test_pickles_hold_the_same_set_exactly(make):
@@ -237,9 +239,36 @@ def test_pickles_hold_the_same_set_exactly(make):
     assert again.is_empty == solid.is_empty and again.is_whole_space == solid.is_whole_space
 
 
-def test_pickling_an_unbounded_set_is_refused():
+def test_pickles_keep_tree_and_names(two_boxes):
+    a, b = two_boxes
+    again = pickle.loads(pickle.dumps(a - b))
+    assert again.to_bytes() != (a - b).to_bytes()  # operands have numbers of their own
+    before, after = (solid.mesh(sources=True) for solid in (a - b, again))
+    assert all((x == y).all() for x, y in zip(before[:2], after[:2]))
+    assert (before[2][:, 1] == after[2][:, 1]).all()
+    operands = np.unique(after[2][:, 0])
+    assert len(operands) == 2 and not set(operands) & {a.source_id, b.source_id}
+    assert pickle.loads(pickle.dumps(a)).source_id not in (0, a.source_id)
+
+
+def test_bytes_of_solids(tmp_path, two_boxes):
+    part = two_boxes[0] - two_boxes[1]
+    data = part.to_bytes()
+    assert Solid.from_bytes(data).equals(part)
+    part.write(tmp_path / "part.trisect")
+    assert (tmp_path / "part.trisect").read_bytes() == data
+    assert Solid.read(tmp_path / "part.trisect").equals(part)
+    part.write(tmp_path / "part.bin", format="trisect")
+    assert Solid.read(tmp_path / "part.bin", format="trisect").equals(part)
+    with pytest.raises(trisect.InputError, match="bytes of a solid"):
+        Solid.from_bytes(data[:-1])
+    with pytest.raises(trisect.InputError, match="bytes of a solid"):
+        Solid.from_bytes(b"nonsense")
+    with pytest.raises(trisect.InputError, match="part.off"):
+        part.write(tmp_path / "part.off")
+        Solid.read(tmp_path / "part.off", format="trisect")
     with pytest.raises(trisect.UnsupportedError):
-        pickle.dumps(Solid.half_space((0, 0, 1, 0)))
+        Solid.half_space((0, 0, 1, 0)).exact_text()
 
 
 def test_exact_text(two_boxes):
