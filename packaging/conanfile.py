@@ -42,6 +42,7 @@ class TrisectConan(ConanFile):
         toolchain = CMakeToolchain(self)
         for name in ("APPS", "TESTS", "EXAMPLES", "C", "PYTHON", "MANIFOLD", "BENCH"):
             toolchain.cache_variables[f"TRISECT_BUILD_{name}"] = False
+        toolchain.cache_variables["TRISECT_BATCHES"] = True
         toolchain.cache_variables["TRISECT_INSTALL"] = True
         toolchain.cache_variables["TRISECT_WITH_3MF"] = False
         toolchain.cache_variables["TRISECT_WITH_TBB"] = bool(self.options.with_tbb)

@@ -111,6 +111,44 @@ def test_meshes_for_meshio(monkeypatch, cube):
     assert set(named.cell_data["operand"][0]) == {cube.source_id}
 
 
+def test_files_of_meshio_itself(tmp_path, cube):
+    """Where meshio is installed: written by it, read by us, and the other way round."""
+    meshio = pytest.importorskip("meshio")
+    trisect.meshio.from_solid(cube).write(tmp_path / "cube.vtk")
+    again = trisect.meshio.to_solid(meshio.read(tmp_path / "cube.vtk"))
+    assert again.equals(cube)
+    cube.write(tmp_path / "cube.off")
+    assert trisect.meshio.to_solid(meshio.read(tmp_path / "cube.off")).equals(cube)
+
+
+def test_arrays_of_scipy():
+    """Hulls as points, rotations as matrices, where scipy is installed."""
+    spatial = pytest.importorskip("scipy.spatial")
+    points = np.random.default_rng(1).normal(size=(40, 3))
+    hull = spatial.ConvexHull(points)
+    solid = trisect.Solid.hull(hull.points[hull.vertices])
+    assert abs(solid.volume - hull.volume) < 1e-12 and solid.vertex_count == len(hull.vertices)
+    # Its triangles have no common orientation; the planes say which side is out.
+    faces = hull.simplices.copy()
+    corners = points[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inward = (normals * hull.equations[:, :3]).sum(axis=1) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    assert trisect.Solid(hull.points, faces).equals(solid)
+    turn = np.eye(4)
+    turn[:3, :3] = spatial.transform.Rotation.from_euler("z", 90, degrees=True).as_matrix().round()
+    assert solid.transform(turn).equals(solid.rotate("z", 90))
+
+
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint32])
+def test_arrays_of_columns(kind):
+    """As of Eigen, whose matrices are stored column by column."""
+    vertices = np.asfortranarray(CUBE_VERTICES)
+    faces = np.asfortranarray(CUBE_TRIANGLES.astype(kind))
+    assert trisect.Solid(vertices, faces).volume == 1
+    assert trisect.Solid(vertices.astype(np.float32), faces).volume == 1
+
+
 def test_objects_with_vertices_and_faces():
     mesh = two_meshes()[0]
     assert trisect.check(mesh).is_solid

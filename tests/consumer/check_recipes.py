@@ -3,7 +3,7 @@
 """check_recipes.py ROOT CMAKE
 
 The recipes in ROOT/packaging can be read, have the project's version, and name only options that the project has. They are
-not run: that takes vcpkg, docker or buildah, and conan (scripts/test-conan).
+not run: that takes vcpkg (scripts/test-vcpkg), docker or buildah, and conan (scripts/test-conan).
 """
 import json
 import pathlib

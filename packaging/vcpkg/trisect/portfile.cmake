@@ -10,6 +10,7 @@ vcpkg_cmake_configure(
     SOURCE_PATH "${SOURCE_PATH}"
     OPTIONS
         ${features}
+        -DTRISECT_BATCHES=ON
         -DTRISECT_INSTALL=ON
         -DTRISECT_BUILD_APPS=OFF
         -DTRISECT_BUILD_TESTS=OFF
