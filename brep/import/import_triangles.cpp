@@ -83,8 +83,7 @@ bool begins_by_threes(const PolygonMesh& mesh, const Sharing& sharing) {
 
 bool has_corners_in_range(const TriangleView& mesh, const Sharing& sharing) {
     const std::size_t n = mesh.points.size();
-    if (mesh.triangles.size() >= (std::size_t{1} << 30) || n >= (std::size_t{1} << 32))
-        return false;
+    if (mesh.triangles.size() >= (std::size_t{1} << 30) || n > 0xffffffffU) return false;
     std::atomic<bool> is_so{true};
     sharing.parts(mesh.triangles.size())
         .for_each([&](std::size_t, std::size_t first, std::size_t end) {

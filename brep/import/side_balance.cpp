@@ -154,7 +154,7 @@ private:
         const auto [first, last] = std::equal_range(
             late_.begin(), late_.end(), LateEnds{v, 0},
             [](const LateEnds& a, const LateEnds& b) { return a.vertex < b.vertex; });
-        const std::span<const LateEnds> late(first, last);
+        const std::span<const LateEnds> late(std::to_address(first), std::to_address(last));
         const auto count = [this](Ends e) {
             ++net_[to_of(e)];
             --net_[from_of(e)];

@@ -7,10 +7,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/exact_rational.h>
+#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/point.h>
 
@@ -27,14 +27,8 @@ mpz_class to_integer(const WideInt<N>& v) {
 }
 
 inline ExactRational to_rational(const mpz_class& numerator, const mpz_class& denominator) {
-    static_assert(sizeof(mp_limb_t) == sizeof(std::uint64_t));
-    const auto limbs = [](const mpz_class& z) {
-        std::vector<std::uint64_t> out(mpz_size(z.get_mpz_t()));
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = mpz_getlimbn(z.get_mpz_t(), static_cast<mp_size_t>(i));
-        return out;
-    };
-    return ExactRational::from_limbs(sgn(numerator) < 0, limbs(numerator), limbs(denominator));
+    return ExactRational::from_limbs(sgn(numerator) < 0, limbs_of(numerator),
+                                     limbs_of(denominator));
 }
 
 inline mpq_class to_fraction(const ExactRational& v) {

@@ -8,9 +8,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -24,10 +27,9 @@ constexpr double upward = 1 + 0x1p-48;
 constexpr double slack = 2;
 
 Int128 to_int128(const mpz_class& v) {
-    const mpz_class rounded_magnitude = abs(v);
-    const auto low = mpz_class(rounded_magnitude & mpz_class((mpz_class(1) << 64) - 1)).get_ui();
-    const auto high = mpz_class(rounded_magnitude >> 64).get_ui();
-    const auto value = static_cast<Int128>((Uint128{high} << 64) | low);
+    std::vector<std::uint64_t> limbs = limbs_of(v);
+    limbs.resize(2);
+    const auto value = static_cast<Int128>((Uint128{limbs[1]} << 64) | limbs[0]);
     return sgn(v) < 0 ? -value : value;
 }
 

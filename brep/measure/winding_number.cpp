@@ -9,6 +9,7 @@
 #include <trisect/brep/winding_number.h>
 
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/number/vector3.h>
@@ -18,6 +19,7 @@ namespace trisect {
 
 namespace {
 
+using detail::to_gmp;
 using detail::to_integer;
 
 /// p = x / w in lattice units, and the integers around each coordinate.
@@ -29,9 +31,10 @@ struct HomogeneousQuery {
 
 /// Beyond all coordinates all integers are alike.
 Coordinate clamped(const mpz_class& v) {
-    if (v > coordinate_limit) return coordinate_limit;
-    if (v < -coordinate_limit) return -coordinate_limit;
-    return std::int64_t{v.get_si()};
+    const mpz_class limit = to_gmp(coordinate_limit);
+    if (v > limit) return coordinate_limit;
+    if (v < -limit) return -coordinate_limit;
+    return detail::to_int64(v);
 }
 
 HomogeneousQuery query_of(const ExactPoint& point, Lattice lattice) {
@@ -98,10 +101,10 @@ private:
         const auto pu = static_cast<std::size_t>(u);
         const auto pv = static_cast<std::size_t>(v);
         if (!(a.is_whole() && b.is_whole())) return turn_of_fractions(a, b, u, v);
-        const mpz_class au(a[u].to_integer());
-        const mpz_class av(a[v].to_integer());
-        const mpz_class left = detail::difference(b[u], a[u]) * (q_.x[pv] - q_.w * av);
-        const mpz_class right = detail::difference(b[v], a[v]) * (q_.x[pu] - q_.w * au);
+        const mpz_class au = to_gmp(a[u].to_integer());
+        const mpz_class av = to_gmp(a[v].to_integer());
+        const mpz_class left = to_gmp(detail::difference(b[u], a[u])) * (q_.x[pv] - q_.w * av);
+        const mpz_class right = to_gmp(detail::difference(b[v], a[v])) * (q_.x[pu] - q_.w * au);
         return sgn(mpz_class(left - right));
     }
 

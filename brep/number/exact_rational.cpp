@@ -61,7 +61,7 @@ double nearest_quotient(const mpz_class& n, const mpz_class& d) {
 
 ExactRational::ExactRational() noexcept = default;
 ExactRational::ExactRational(std::int64_t v) : value_(std::make_unique<Value>()) {
-    value_->q = mpz_class(static_cast<long>(v));
+    value_->q = detail::to_gmp(v);
 }
 ExactRational::ExactRational(const ExactRational& o)
     : value_(o.value_ ? std::make_unique<Value>(*o.value_) : nullptr) {}

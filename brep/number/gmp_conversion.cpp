@@ -6,8 +6,6 @@
 
 namespace trisect::detail {
 
-namespace {
-
 std::vector<std::uint64_t> limbs_of(const mpz_class& magnitude) {
     std::vector<std::uint64_t> limbs(mpz_size(magnitude.get_mpz_t()) + 1);
     std::size_t count = 0;
@@ -15,8 +13,6 @@ std::vector<std::uint64_t> limbs_of(const mpz_class& magnitude) {
     limbs.resize(count);
     return limbs;
 }
-
-}  // namespace
 
 ExactRational from_gmp(const mpq_class& value) {
     const mpz_class magnitude = abs(value.get_num());

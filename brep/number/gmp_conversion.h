@@ -31,8 +31,19 @@ template <int N>
 }
 [[nodiscard]] inline mpz_class to_gmp(Int128 value) { return to_gmp(WideInt<2>(value)); }
 [[nodiscard]] inline mpz_class to_gmp(std::int64_t value) {
-    static_assert(sizeof(long) == sizeof(std::int64_t), "GMP takes long");
-    return mpz_class(static_cast<long>(value));
+    // GMP takes long, which has 32 bits on some machines.
+    if constexpr (sizeof(long) == sizeof(std::int64_t)) return mpz_class(static_cast<long>(value));
+    return to_gmp(WideInt<1>(value));
+}
+
+/// Its digits of 64 bits, the lowest first; none for 0.
+[[nodiscard]] std::vector<std::uint64_t> limbs_of(const mpz_class& magnitude);
+/// A number in the range of the result.
+[[nodiscard]] inline std::int64_t to_int64(const mpz_class& value) {
+    if constexpr (sizeof(long) == sizeof(std::int64_t)) return value.get_si();
+    const std::vector<std::uint64_t> limbs = limbs_of(value);
+    const std::uint64_t magnitude = limbs.empty() ? 0 : limbs.front();
+    return static_cast<std::int64_t>(sgn(value) < 0 ? ~magnitude + 1 : magnitude);
 }
 
 /// The fractions times the least common multiple of their denominators, which is `denominator`.

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -43,10 +44,20 @@ std::uint64_t inverse(std::uint64_t a) {  // a^(prime - 2)
     return result;
 }
 
+std::uint64_t modulo_prime(const mpz_class& c) {
+    // GMP takes unsigned long, which has 32 bits on some machines.
+    if constexpr (sizeof(unsigned long) == sizeof(prime))
+        return mpz_fdiv_ui(c.get_mpz_t(), static_cast<unsigned long>(prime));
+    const mpz_class divisor = to_gmp(static_cast<std::int64_t>(prime));
+    mpz_class rest;
+    mpz_fdiv_r(rest.get_mpz_t(), c.get_mpz_t(), divisor.get_mpz_t());
+    return static_cast<std::uint64_t>(to_int64(rest));
+}
+
 std::vector<std::uint64_t> modulo_prime(const IntegerPolynomial& p) {
     std::vector<std::uint64_t> r;
     r.reserve(p.coefficients().size());
-    for (const mpz_class& c : p.coefficients()) r.push_back(mpz_fdiv_ui(c.get_mpz_t(), prime));
+    for (const mpz_class& c : p.coefficients()) r.push_back(modulo_prime(c));
     return r;
 }
 

@@ -19,6 +19,7 @@
 #include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/brep/number/gmp_conversion.h>
 #include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/half_space.h>
@@ -78,9 +79,9 @@ mpz_class floor_of(const mpq_class& v) {
 // \throw LimitError beyond the range in which coordinates may be moved
 std::int64_t rounded(const mpq_class& v) {
     const mpz_class r = floor_of(v + mpq_class(1, 2));
-    if (abs(r) >= mpz_class(2) * mpz_class(coordinate_limit))
+    if (abs(r) >= 2 * detail::to_gmp(coordinate_limit))
         throw LimitError("a transformed coordinate leaves the lattice");
-    return r.get_si();
+    return detail::to_int64(r);
 }
 
 double size_of(const mpq_class& units, Lattice lattice) {
@@ -97,7 +98,7 @@ mpz_class largest_coordinate(const SolidState& state, const Pose& pose) {
     mpq_class by = 0;
     for (std::size_t i = 0; i < 3; ++i)
         by = std::max(by, mpq_class(abs(in_units(translation_of(pose, i), state.lattice))));
-    return floor_of(by) + largest + 4;
+    return floor_of(by) + detail::to_gmp(largest) + 4;
 }
 
 // The nearest finer lattice on which the translation is exact, if the moved solid has room on it;
@@ -138,9 +139,9 @@ StatePtr refined_towards(const StatePtr& state, Lattice wanted) {
 std::optional<StatePtr> moved_with_fractions(StatePtr state, LatticeMove move, const Pose& pose) {
     for (std::size_t i = 0; i < 3; ++i) {
         const mpq_class t = in_units(translation_of(pose, i), state->lattice);
-        if (t.get_den() != 1 || abs(t.get_num()) >= mpz_class(coordinate_limit))
+        if (t.get_den() != 1 || abs(t.get_num()) >= detail::to_gmp(coordinate_limit))
             return std::nullopt;
-        move.by[i] = t.get_num().get_si();
+        move.by[i] = detail::to_int64(t.get_num());
     }
     // Splitting planes that are turned over are not where coordinates with fractions need them.
     if (std::ranges::min(move.sign) < 0) state = detail::without_tree(state);
@@ -158,7 +159,7 @@ StatePtr moved(StatePtr state, LatticeMove move, const Pose& pose, LatticeReport
     for (std::size_t i = 0; i < 3; ++i) {
         const mpq_class t = in_units(translation_of(pose, i), state->lattice);
         move.by[i] = rounded(t);
-        largest = std::max(largest, mpq_class(abs(t - mpq_class(mpz_class(move.by[i])))));
+        largest = std::max(largest, mpq_class(abs(t - mpq_class(detail::to_gmp(move.by[i])))));
     }
     report.lossless = largest == 0;
     report.max_move = size_of(largest, state->lattice);

@@ -13,7 +13,8 @@
 namespace trisect::detail {
 
 __extension__ typedef double Double2 __attribute__((vector_size(16)));
-__extension__ typedef std::int64_t Mask2 __attribute__((vector_size(16)));
+/// What comparisons give: lanes of some integer of 64 bits.
+using Mask2 = decltype(Double2{} > Double2{});
 
 [[nodiscard]] inline Double2 both(double v) { return Double2{v, v}; }
 

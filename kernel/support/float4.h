@@ -15,7 +15,8 @@
 namespace trisect::detail {
 
 __extension__ typedef float Float4 __attribute__((vector_size(16)));
-__extension__ typedef std::int32_t Mask4 __attribute__((vector_size(16)));
+/// What comparisons give: lanes of int, or of long where that has 32 bits.
+using Mask4 = decltype(Float4{} > Float4{});
 
 [[nodiscard]] inline Float4 all_lanes(float v) { return Float4{v, v, v, v}; }
 

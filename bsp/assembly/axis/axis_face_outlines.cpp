@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -459,8 +460,8 @@ std::span<const double> AxisFaceOutlines<Number>::coordinates_near(const PlaneCo
         const auto& all = planes[axis];
         // Sums round: a little beyond.
         const double reach = margin + last_place * std::fabs(a.c[axis]);
-        return {std::ranges::lower_bound(all, a.c[axis] - reach),
-                std::ranges::upper_bound(all, a.c[axis] + reach)};
+        return {std::to_address(std::ranges::lower_bound(all, a.c[axis] - reach)),
+                std::to_address(std::ranges::upper_bound(all, a.c[axis] + reach))};
     }
 }
 
@@ -667,7 +668,8 @@ auto AxisFaceOutlines<Number>::others_on(std::size_t along, const Ranks& line) c
     const std::vector<Other>& all = other_stops_[along];
     const LineKey key = line_at(along, line);
     const auto first = std::ranges::lower_bound(all, key, {}, &Other::line);
-    return {first, std::ranges::upper_bound(first, all.end(), key, {}, &Other::line)};
+    const auto end = std::ranges::upper_bound(first, all.end(), key, {}, &Other::line);
+    return {std::to_address(first), std::to_address(end)};
 }
 
 template <class Number>

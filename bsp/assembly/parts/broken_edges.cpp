@@ -3,6 +3,7 @@
 #include <trisect/bsp/assembly/parts/broken_edges.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -64,7 +65,7 @@ public:
         const auto first = std::ranges::lower_bound(parts_of_edges_, edge, {}, &Part::edge);
         const auto end =
             std::ranges::upper_bound(first, parts_of_edges_.end(), edge, {}, &Part::edge);
-        const std::span<const Part> group(first, end);
+        const std::span<const Part> group(std::to_address(first), std::to_address(end));
         std::vector<PointId> out;
         if (group.empty() || !group.front().starts) return out;
         const BoundaryFacet& f = parts_.facets[as_index(group.front().facet)];

@@ -366,7 +366,8 @@ public:
     void pairs(std::vector<detail::BodyPair>& out) override {
         CostCounters counters;
         tree_.pairs(out, counters);
-        counts_ = {counters.volume_tests, tree_.updates() - updates_};
+        counts_ = {static_cast<std::size_t>(counters.volume_tests),
+                   static_cast<std::size_t>(tree_.updates() - updates_)};
         updates_ = tree_.updates();
     }
     [[nodiscard]] std::size_t bytes() const override { return tree_.bytes(); }
