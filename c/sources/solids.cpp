@@ -13,6 +13,7 @@
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
+#include <trisect/bsp/csg/csg_evaluate.h>
 #include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>
 
@@ -134,6 +135,17 @@ trisect_status trisect_solid_from_exact_text(const char* text, size_t length,
         const auto characters = c::array_of(text, length, "text");
         return Solid::from_brep(
             read_exact(std::string_view(characters.data(), characters.size()), "text"));
+    });
+}
+
+trisect_status trisect_solid_from_csg(const char* text, size_t length, trisect_solid** solid) {
+    return make_handle(solid, "solid", [&] {
+        const auto characters = c::array_of(text, length, "text");
+        CsgOptions options;
+        options.evaluate.threads = c::limits_of_thread().threads;
+        options.reads_files = false;
+        return evaluate_csg(
+            parse_csg(std::string_view(characters.data(), characters.size()), "text"), options);
     });
 }
 

@@ -146,6 +146,11 @@ TRISECT_C_API trisect_status trisect_solid_exact_text(const trisect_solid* solid
                                                       trisect_text** text);
 TRISECT_C_API trisect_status trisect_solid_from_exact_text(const char* text, size_t length,
                                                            trisect_solid** solid);
+/* The set that a program in OpenSCAD's evaluated form describes, as `trisect eval` has it; a region
+ * of the plane is the prism over it from z = 0 to z = 1. No file is read for import() and
+ * surface(): TRISECT_UNSUPPORTED. */
+TRISECT_C_API trisect_status trisect_solid_from_csg(const char* text, size_t length,
+                                                    trisect_solid** solid);
 /* Another handle of the same solid; costs nothing. */
 TRISECT_C_API trisect_status trisect_solid_copy(const trisect_solid* from, trisect_solid** solid);
 TRISECT_C_API void trisect_solid_free(trisect_solid* solid);
