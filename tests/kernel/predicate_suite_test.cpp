@@ -12,24 +12,17 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include <trisect/kernel/error.h>
-#include <trisect/kernel/lattice.h>
-#include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicate_suite_side.h>
-#include <trisect/kernel/predicates.h>
+
+#include "support/sign_manifest.h"
 
 namespace {
 
 namespace suite = trisect::predicate_suite;
-using suite::PlaneEquation;
 using suite::Point2;
 using suite::Point3;
-using trisect::LatticePoint;
-using trisect::Plane;
 
 // ---------------------------------------------------------------- the suite against GMP
 
@@ -142,39 +135,13 @@ TEST(PredicateSuite, ConventionOfTheOtherHandIsUnderstood) {
 
 // ---------------------------------------------------------------- the kernel
 
-Plane plane_of(const PlaneEquation& e) {
-    const auto n = [&e](std::size_t i) { return trisect::Int128{static_cast<std::int64_t>(e[i])}; };
-    return {n(0), n(1), n(2), Plane::Coefficient(static_cast<std::int64_t>(e[3]))};
-}
-
-// By the library: nothing where the points do not fit on one lattice, which import would report.
-std::optional<int> orient3d_by_kernel(const std::array<Point3, 4>& p) {
-    // Import leaves growth_bits free. Here all 53 bits may be used.
-    trisect::LatticeReport report;
-    trisect::Lattice lattice = trisect::choose_lattice(p);
-    std::vector<LatticePoint> q;
-    try {
-        q = trisect::to_lattice(p, lattice, report);
-        if (!report.lossless) {
-            report = {};
-            lattice.exponent -= 8;
-            q = trisect::to_lattice(p, lattice, report);
-        }
-    } catch (const trisect::LimitError&) {
-        return std::nullopt;
-    }
-    if (!report.lossless) return std::nullopt;
-    if (trisect::are_collinear(q[0], q[1], q[2])) return 0;
-    return trisect::sign_of(side_of(q[3], Plane::through(q[0], q[1], q[2])));
-}
-
 TEST(PredicateSuite, TheKernelIsRightInAllFamilies) {
     suite::Generator generator(21);
     std::uint64_t compared = 0;
     for (std::size_t k = 0; k < suite::Generator::orient3d_families.size(); ++k) {
         for (int n = 0; n < 3000; ++n) {
             const auto p = generator.orient3d(k);
-            const auto sign = orient3d_by_kernel(p);
+            const auto sign = sign_manifest::orient3d_by_kernel(p);
             if (!sign) continue;
             ++compared;
             EXPECT_EQ(*sign, suite::exact_orient3d(p[0], p[1], p[2], p[3]))
@@ -186,45 +153,8 @@ TEST(PredicateSuite, TheKernelIsRightInAllFamilies) {
         EXPECT_EQ(row.wrong + row.inconsistent, 0U) << row.family << ": " << row.first;
 }
 
-// FNV-1a over signs.
-class SignHash {
-public:
-    void add(int sign) {
-        hash_ = (hash_ ^ static_cast<std::uint64_t>(sign + 1)) * 0x100000001b3U;
-        ++count_;
-    }
-    [[nodiscard]] std::uint64_t hash() const { return hash_; }
-    [[nodiscard]] std::uint64_t count() const { return count_; }
-
-private:
-    std::uint64_t hash_ = 0xcbf29ce484222325U;
-    std::uint64_t count_ = 0;
-};
-
-// A build with another compiler, other options or on another processor that decides one of these
-// signs differently has another number here. So has one that draws other inputs.
 TEST(SignManifest, MillionSignsOverAllFamilies) {
-    suite::Generator generator(2026);
-    SignHash hash;
-    for (std::size_t k = 0; k < suite::Generator::orient3d_families.size(); ++k) {
-        for (int n = 0; n < 25'000; ++n) {
-            const auto sign = orient3d_by_kernel(generator.orient3d(k));
-            hash.add(sign.value_or(2));
-        }
-    }
-    for (std::size_t k = 0; k < suite::Generator::side_families.size(); ++k) {
-        for (int n = 0; n < 25'000; ++n) {
-            const auto e = generator.planes(k);
-            const std::array planes{plane_of(e[0]), plane_of(e[1]), plane_of(e[2]), plane_of(e[3])};
-            const int det = sign_of_det(planes[0], planes[1], planes[2]);
-            hash.add(det);
-            if (!planes[3].is_valid()) continue;
-            if (det != 0) hash.add(suite::side_by_trisect(e[0], e[1], e[2], e[3]));
-            for (int axis = 0; axis < 3; ++axis)
-                hash.add(sign_of_cross(planes[0], planes[3], axis));
-            hash.add(sign_of_dot(planes[0], planes[3]));
-        }
-    }
+    const sign_manifest::SignHash hash = sign_manifest::of_all_families();
     EXPECT_EQ(hash.count(), 1'162'082U);
     EXPECT_EQ(hash.hash(), 16'618'475'444'522'659'819U);
 }
