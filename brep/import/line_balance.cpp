@@ -147,7 +147,8 @@ std::vector<bool> find_uncancelled(std::span<const LatticePoint> points,
         VectorOf<mpz_class> x;
         for (std::size_t k = 0; k < 3; ++k) {
             const Dyadic d = dyadic(coordinate(points[p], k).to_double());
-            x[k] = mpz_class(static_cast<double>(d.mantissa)) << static_cast<unsigned>(d.exponent + fraction_limit);
+            x[k] = mpz_class(static_cast<double>(d.mantissa))
+                   << static_cast<unsigned>(d.exponent + fraction_limit);
         }
         return x;
     });

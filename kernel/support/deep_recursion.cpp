@@ -6,10 +6,6 @@
 
 #include <cstdint>
 
-#if defined(__EMSCRIPTEN__)
-#include <emscripten/stack.h>
-#endif
-
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
@@ -46,7 +42,8 @@ const std::byte* find_stack_reserve() noexcept {
     // Where nothing is known: not null, and below every frame.
     const auto* found = reinterpret_cast<const std::byte*>(std::uintptr_t{1});
 #if defined(__EMSCRIPTEN__)
-    found = reinterpret_cast<const std::byte*>(emscripten_stack_get_end()) + reserve;
+    // The linker puts the stack first, down to address 0 (web/wasm).
+    found = reinterpret_cast<const std::byte*>(reserve);
 #elif defined(__linux__)
     pthread_attr_t attributes;
     if (pthread_getattr_np(pthread_self(), &attributes) == 0) {

@@ -15,6 +15,7 @@
 #include <trisect/bsp/assembly/parts/face_loops.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
 
 #include <trisect/brep/face/loops_below.h>
@@ -45,7 +46,7 @@ std::span<const std::pair<PointId, std::uint32_t>> FaceLoops::leaving(PointId p)
     }
     auto hi = lo;
     while (hi != by_start_.end() && hi->first == p) ++hi;
-    return {lo, hi};
+    return {std::to_address(lo), std::to_address(hi)};
 }
 
 // Clockwise from the way back: first what lies to the left of the arriving edge, then straight on,
