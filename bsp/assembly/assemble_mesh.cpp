@@ -424,8 +424,14 @@ private:
         for (const PointId p : ids_) local_[as_index(p)] = no_number;
         const Plane& support = bench_.plane_at(f.support);
         for (const IndexTriangle& t :
-             triangulate(f.flipped ? support.flipped() : support, points_, outline_))
-            add_worked(vertex(ids_[t[0]]), vertex(ids_[t[1]]), vertex(ids_[t[2]]));
+             triangulate(f.flipped ? support.flipped() : support, points_, outline_)) {
+            // New vertices get their numbers in this order, whatever order a compiler evaluates
+            // arguments in.
+            const std::uint32_t third = vertex(ids_[t[2]]);
+            const std::uint32_t second = vertex(ids_[t[1]]);
+            const std::uint32_t first = vertex(ids_[t[0]]);
+            add_worked(first, second, third);
+        }
     }
 
     Lattice lattice_;
