@@ -226,6 +226,21 @@ static void test_exact_text(void) {
     trisect_solid_free(a);
 }
 
+static void test_csg(void) {
+    const char program[] = "cube(size = [1, 2, 3], center = false);";
+    trisect_solid* a = NULL;
+    EXPECT_OK(trisect_solid_from_csg(program, sizeof(program) - 1, &a));
+    double volume = 0;
+    EXPECT_OK(trisect_volume(a, &volume));
+    EXPECT(volume == 6);
+    trisect_solid_free(a);
+    EXPECT(trisect_solid_from_csg("cube(", 5, &a) == TRISECT_INPUT);
+    EXPECT(a == NULL);
+    EXPECT(strstr(trisect_error_message(), "text:1") != NULL);
+    const char import[] = "import(file = \"a.stl\");";
+    EXPECT(trisect_solid_from_csg(import, sizeof(import) - 1, &a) == TRISECT_UNSUPPORTED);
+}
+
 static void test_files(void) {
     trisect_solid* a = box(0, 0, 0, 1, 1, 1);
     EXPECT_OK(trisect_solid_write(a, "c_interface_test.off"));
@@ -414,6 +429,7 @@ int main(void) {
     test_parts();
     test_meshes_and_measures();
     test_exact_text();
+    test_csg();
     test_files();
     test_native_files();
     test_queries();
