@@ -427,10 +427,10 @@ private:
              triangulate(f.flipped ? support.flipped() : support, points_, outline_)) {
             // New vertices get their numbers in this order, whatever order a compiler evaluates
             // arguments in.
-            const std::uint32_t third = vertex(ids_[t[2]]);
-            const std::uint32_t second = vertex(ids_[t[1]]);
-            const std::uint32_t first = vertex(ids_[t[0]]);
-            add_worked(first, second, third);
+            const std::uint32_t corner2 = vertex(ids_[t[2]]);
+            const std::uint32_t corner1 = vertex(ids_[t[1]]);
+            const std::uint32_t corner0 = vertex(ids_[t[0]]);
+            add_worked(corner0, corner1, corner2);
         }
     }
 
