@@ -131,7 +131,10 @@ ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options
 
 ConvexPieces pieces_of_region(const Solid& prism, bool edges, const MinkowskiOptions& options) {
     if (auto corners = convex_corners(prism, prism.to_mesh(), options)) {
-        if (edges) std::erase_if(*corners, [](const Point3d& p) { return p[2] != 0; });
+        // Corners at the bottom first: a region is moved within its plane.
+        const auto top = std::stable_partition(corners->begin(), corners->end(),
+                                               [](const Point3d& p) { return p[2] == 0; });
+        if (edges) corners->erase(top, corners->end());
         return whole(std::move(*corners));
     }
     ConvexPieces out;

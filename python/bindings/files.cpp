@@ -85,9 +85,10 @@ void write_solid(const Solid& solid, const std::filesystem::path& path,
 
 void bind_files(py::module_& m) {
     py::class_<Solid> c = solid_class(m);
-    c.def_static("read", &read_solid, py::arg("path"), py::kw_only(),
-                 py::arg("embedding") = "check", py::arg("format") = py::none(),
-                 R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB or AMF file, or of a native one (``.trisect``).
+    c.def_static(
+        "read", &read_solid, py::arg("path"), py::kw_only(), py::arg("embedding") = "check",
+        py::arg("format") = py::none(),
+        R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB or AMF file, or of a native one (``.trisect``).
 
 Parameters
 ----------
