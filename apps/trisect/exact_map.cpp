@@ -35,8 +35,6 @@ Turn turn_of(double degrees) {
     return {std::cos(radians), std::sin(radians)};
 }
 
-ExactRational absolute(const ExactRational& value) { return value.sign() < 0 ? -value : value; }
-
 void turn_faces_over(PolygonMesh& mesh) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto begin = mesh.corners.begin();
@@ -48,29 +46,18 @@ void turn_faces_over(PolygonMesh& mesh) {
 
 }  // namespace
 
-ExactMap::ExactMap() {
-    for (std::size_t i = 0; i < 3; ++i) rows_[5 * i] = 1;
-}
-
 ExactMap ExactMap::from_rows(const std::array<double, 12>& rows) {
-    ExactMap map;
-    for (std::size_t i = 0; i < 12; ++i) map.rows_[i] = ExactRational::from_double(rows[i]);
-    return map;
+    return detail::ExactAffine::from_rows(rows);
 }
 
 ExactMap ExactMap::from_file(const std::string& path) { return from_rows(read_matrix(path)); }
 
 ExactMap ExactMap::translation(const std::array<double, 3>& vector) {
-    ExactMap map;
-    for (std::size_t i = 0; i < 3; ++i)
-        map.rows_[4 * i + 3] = ExactRational::from_double(vector[i]);
-    return map;
+    return from_rows({1, 0, 0, vector[0], 0, 1, 0, vector[1], 0, 0, 1, vector[2]});
 }
 
 ExactMap ExactMap::scaling(double factor) {
-    ExactMap map;
-    for (std::size_t i = 0; i < 3; ++i) map.rows_[5 * i] = ExactRational::from_double(factor);
-    return map;
+    return from_rows({factor, 0, 0, 0, 0, factor, 0, 0, 0, 0, factor, 0});
 }
 
 ExactMap ExactMap::rotation(const std::array<double, 4>& axis_and_degrees) {
@@ -96,61 +83,17 @@ ExactMap ExactMap::rotation(const std::array<double, 4>& axis_and_degrees) {
     return from_rows(rows);
 }
 
-ExactMap ExactMap::then(const ExactMap& next) const {
-    ExactMap map;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 4; ++j) {
-            ExactRational sum = j == 3 ? next.at(i, 3) : ExactRational();
-            for (std::size_t k = 0; k < 3; ++k) sum += next.at(i, k) * at(k, j);
-            map.rows_[4 * i + j] = sum;
-        }
-    }
-    return map;
-}
-
-bool ExactMap::is_identity() const {
-    const ExactMap identity;
-    return std::equal(rows_.begin(), rows_.end(), identity.rows_.begin());
-}
-
-int ExactMap::orientation() const {
-    ExactRational determinant;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t u = (i + 1) % 3;
-        const std::size_t v = (i + 2) % 3;
-        determinant += at(0, i) * (at(1, u) * at(2, v) - at(1, v) * at(2, u));
-    }
-    return determinant.sign();
-}
-
-std::array<double, 12> ExactMap::rows() const {
-    std::array<double, 12> out{};
-    for (std::size_t i = 0; i < 12; ++i) out[i] = rows_[i].to_double();
-    return out;
-}
-
 RoundingReport ExactMap::apply(PolygonMesh& mesh) const {
     if (is_identity()) return {};
     const int sign = orientation();
     if (sign == 0) throw UsageError("the transform makes space flat");
     RoundingReport report;
-    ExactRational most;
     for (Point3d& point : mesh.points) {
-        std::array<ExactRational, 3> p;
-        for (std::size_t k = 0; k < 3; ++k) p[k] = ExactRational::from_double(point[k]);
-        bool moved = false;
-        for (std::size_t i = 0; i < 3; ++i) {
-            ExactRational sum = at(i, 3);
-            for (std::size_t k = 0; k < 3; ++k) sum += at(i, k) * p[k];
-            point[i] = sum.to_double();
-            if (!std::isfinite(point[i])) throw LimitError("the transform leaves the doubles");
-            const ExactRational move = absolute(sum - ExactRational::from_double(point[i]));
-            moved = moved || move.sign() != 0;
-            if (move > most) most = move;
-        }
-        report.moved += moved ? 1U : 0U;
+        const detail::ExactAffine::Image image = map_.apply(point);
+        point = image.point;
+        report.moved += image.move > 0 ? 1U : 0U;
+        report.max_move = std::max(report.max_move, image.move);
     }
-    report.max_move = most.to_double();
     if (sign < 0) turn_faces_over(mesh);
     return report;
 }

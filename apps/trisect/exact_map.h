@@ -3,7 +3,7 @@
 // ExactMap: an exact map of space, and its rounding of a mesh.
 #pragma once
 
-#include <trisect/brep/exact_rational.h>
+#include <trisect/brep/number/exact_affine.h>
 #include <trisect/brep/polygon_mesh.h>
 
 #include <array>
@@ -20,8 +20,7 @@ struct RoundingReport {
 /// x -> M x + t, as the rows of the 3x4 matrix (M | t). Value type.
 class ExactMap {
 public:
-    /// The identity.
-    ExactMap();
+    ExactMap() = default;  ///< the identity
 
     /// Twelve numbers, row by row, each exactly the given double.
     [[nodiscard]] static ExactMap from_rows(const std::array<double, 12>& rows);
@@ -35,12 +34,12 @@ public:
     [[nodiscard]] static ExactMap rotation(const std::array<double, 4>& axis_and_degrees);
 
     /// First this map, then the other one.
-    [[nodiscard]] ExactMap then(const ExactMap& next) const;
-    [[nodiscard]] bool is_identity() const;
+    [[nodiscard]] ExactMap then(const ExactMap& next) const { return map_.then(next.map_); }
+    [[nodiscard]] bool is_identity() const { return map_.is_identity(); }
     /// 1 if orientation is kept, -1 if mirrored, 0 if space is made flat.
-    [[nodiscard]] int orientation() const;
+    [[nodiscard]] int orientation() const { return map_.orientation(); }
     /// The coefficients, correctly rounded.
-    [[nodiscard]] std::array<double, 12> rows() const;
+    [[nodiscard]] std::array<double, 12> rows() const { return map_.rows(); }
 
     /// Moves every point to the doubles nearest to its exact image; a mirror turns the faces over,
     /// so that they still face outwards.
@@ -48,10 +47,9 @@ public:
     RoundingReport apply(PolygonMesh& mesh) const;
 
 private:
-    [[nodiscard]] const ExactRational& at(std::size_t row, std::size_t column) const {
-        return rows_[4 * row + column];
-    }
-    std::array<ExactRational, 12> rows_;
+    ExactMap(const detail::ExactAffine& map) : map_(map) {}
+
+    detail::ExactAffine map_;
 };
 
 }  // namespace trisect::app

@@ -303,7 +303,7 @@ public:
             if (thing.is_placed) continue;
             ModelPart part;
             part.name = thing.name;
-            place(thing, Placement(), part);
+            place(thing, ExactAffine(), part);
             if (std::all_of(part.materials.begin(), part.materials.end(),
                             [](std::uint32_t m) { return m == no_material; }))
                 part.materials.clear();
@@ -348,8 +348,8 @@ private:
         thing.state = AmfThing::State::Done;
     }
 
-    static Placement placement_of(const AmfInstance& instance) {
-        Placement out;
+    static ExactAffine placement_of(const AmfInstance& instance) {
+        ExactAffine out;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (instance.numbers[3 + axis] == 0) continue;
             Point3d direction{0, 0, 0};
@@ -357,13 +357,13 @@ private:
             const AffineMap turn = AffineMap::rotation(direction, instance.numbers[3 + axis]);
             std::array<double, 12> rows{};
             for (std::size_t i = 0; i < 12; ++i) rows[i] = turn.rows[i / 4][i % 4];
-            out = out.then(Placement::from_rows(rows));
+            out = out.then(ExactAffine::from_rows(rows));
         }
         const auto& n = instance.numbers;
-        return out.then(Placement::from_rows({1, 0, 0, n[0], 0, 1, 0, n[1], 0, 0, 1, n[2]}));
+        return out.then(ExactAffine::from_rows({1, 0, 0, n[0], 0, 1, 0, n[1], 0, 0, 1, n[2]}));
     }
 
-    void place(const AmfThing& thing, const Placement& placement, ModelPart& part) {
+    void place(const AmfThing& thing, const ExactAffine& placement, ModelPart& part) {
         if (thing.mesh.face_count() != 0) {
             add_placed(part, thing.mesh, placement, report_);
             part.materials.insert(part.materials.end(), thing.materials.begin(),

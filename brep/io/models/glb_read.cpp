@@ -47,7 +47,7 @@ public:
         read_materials();
         const auto roots = scene_nodes();
         const GlbValue user = glb_.root();
-        for (const std::uint64_t node : roots) place_node(node, user, Placement(), 1);
+        for (const std::uint64_t node : roots) place_node(node, user, ExactAffine(), 1);
         return std::move(model_);
     }
 
@@ -111,15 +111,15 @@ private:
         return out;
     }
 
-    Placement placement_of(const GlbValue& node) const {
+    ExactAffine placement_of(const GlbValue& node) const {
         if (!glb_.has(node, "matrix")) {
             const auto s = glb_.numbers(node, "scale", {1, 1, 1});
             const auto q = glb_.numbers(node, "rotation", {0, 0, 0, 1});
             const auto t = glb_.numbers(node, "translation", {0, 0, 0});
             if (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0)
                 glb_.fail(node, "a rotation by the quaternion 0");
-            return Placement::from_parts({s[0], s[1], s[2]}, {q[0], q[1], q[2], q[3]},
-                                         {t[0], t[1], t[2]});
+            return ExactAffine::from_parts({s[0], s[1], s[2]}, {q[0], q[1], q[2], q[3]},
+                                           {t[0], t[1], t[2]});
         }
         // Column by column.
         const auto m = glb_.numbers(node, "matrix", std::vector<double>(16));
@@ -127,10 +127,10 @@ private:
             glb_.fail(node, "a matrix whose last row is not 0 0 0 1");
         std::array<double, 12> rows{};
         for (std::size_t i = 0; i < 12; ++i) rows[i] = m[4 * (i % 4) + i / 4];
-        return Placement::from_rows(rows);
+        return ExactAffine::from_rows(rows);
     }
 
-    void place_node(std::uint64_t index, const GlbValue& user, const Placement& around,
+    void place_node(std::uint64_t index, const GlbValue& user, const ExactAffine& around,
                     std::uint64_t depth) {
         check_stop();
         const GlbValue node = glb_.at("nodes", index, user);
@@ -140,13 +140,13 @@ private:
                 glb_.source().begin(),
                 "nodes nest deeper than " + std::to_string(glb_.source().limits().nesting));
         }
-        const Placement placement = placement_of(node).then(around);
+        const ExactAffine placement = placement_of(node).then(around);
         if (const auto mesh = glb_.count(node, "mesh")) place_mesh(*mesh, node, placement);
         for (const std::uint64_t child : indices_of(node, "children"))
             place_node(child, node, placement, depth + 1);
     }
 
-    void place_mesh(std::uint64_t index, const GlbValue& node, const Placement& placement) {
+    void place_mesh(std::uint64_t index, const GlbValue& node, const ExactAffine& placement) {
         if (glb_.has(node, "skin")) glb_.refuse(node, "meshes with skins are not read");
         if (const auto extensions = glb_.object(node, "extensions");
             extensions && glb_.has(*extensions, "EXT_mesh_gpu_instancing"))

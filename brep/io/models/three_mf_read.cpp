@@ -151,8 +151,8 @@ private:
         return {&in, &object->second};
     }
 
-    static Placement placement_of(const Loaded& from, const ThreeMfUse& use) {
-        Placement placement = Placement::from_rows(use.rows);
+    static ExactAffine placement_of(const Loaded& from, const ThreeMfUse& use) {
+        ExactAffine placement = ExactAffine::from_rows(use.rows);
         if (placement.orientation() == 0)
             from.part->source.fail(use.at, "a transform that makes space flat");
         return placement;
@@ -200,7 +200,7 @@ private:
         return known->second = extent;
     }
 
-    void place(const Target& target, const Placement& placement, ModelPart& made) {
+    void place(const Target& target, const ExactAffine& placement, ModelPart& made) {
         const ThreeMfObject& object = *target.object;
         if (object.is_support) return;
         if (object.has_mesh) {

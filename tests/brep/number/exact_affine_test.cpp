@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/brep/io/models/placement.h>
+#include <trisect/brep/number/exact_affine.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,41 +10,33 @@
 namespace {
 
 using namespace trisect;
-using detail::Placement;
+using detail::ExactAffine;
 
-Point3d image(const Placement& placement, const Point3d& p, ModelReport& report) {
-    return placement.apply(p, report);
-}
-
-TEST(Placement, QuaternionsOfAnyLength) {
-    ModelReport report;
+TEST(ExactAffine, QuaternionsOfAnyLength) {
     // A quarter turn about z, of length 2.
-    const Placement turn = Placement::from_parts({1, 1, 1}, {0, 0, 1.5, 1.5}, {1, 2, 3});
-    EXPECT_EQ(image(turn, {1, 0, 0}, report), (Point3d{1, 3, 3}));
-    EXPECT_EQ(image(turn, {0, 1, 0}, report), (Point3d{0, 2, 3}));
-    EXPECT_EQ(report, ModelReport());
+    const ExactAffine turn = ExactAffine::from_parts({1, 1, 1}, {0, 0, 1.5, 1.5}, {1, 2, 3});
+    EXPECT_EQ(turn.apply({1, 0, 0}).point, (Point3d{1, 3, 3}));
+    EXPECT_EQ(turn.apply({0, 1, 0}).point, (Point3d{0, 2, 3}));
+    EXPECT_EQ(turn.apply({1, 0, 0}).move, 0);
     EXPECT_EQ(turn.orientation(), 1);
-    EXPECT_EQ(Placement::from_parts({-1, 2, 3}, {0, 0, 0, 1}, {0, 0, 0}).orientation(), -1);
+    EXPECT_EQ(ExactAffine::from_parts({-1, 2, 3}, {0, 0, 0, 1}, {0, 0, 0}).orientation(), -1);
 }
 
-TEST(Placement, ScaleComesBeforeTheTurn) {
-    ModelReport report;
-    const Placement p = Placement::from_parts({3, 1, 1}, {0, 0, 1, 1}, {0, 0, 0});
-    EXPECT_EQ(image(p, {1, 1, 1}, report), (Point3d{-1, 3, 1}));
+TEST(ExactAffine, ScaleComesBeforeTheTurn) {
+    const ExactAffine p = ExactAffine::from_parts({3, 1, 1}, {0, 0, 1, 1}, {0, 0, 0});
+    EXPECT_EQ(p.apply({1, 1, 1}).point, (Point3d{-1, 3, 1}));
 }
 
-TEST(Placement, RoundsOnce) {
-    ModelReport report;
-    const Placement third = Placement::from_rows({0.1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+TEST(ExactAffine, RoundsOnce) {
+    const ExactAffine third = ExactAffine::from_rows({0.1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
     // 0.1 ten times over, exactly, is a little more than 1; in doubles each step would round.
-    Placement power;
-    Placement back = Placement::from_rows({10, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+    ExactAffine power;
+    ExactAffine back = ExactAffine::from_rows({10, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
     power = third.then(back);
-    EXPECT_EQ(image(power, {1, 0, 0}, report), (Point3d{1, 0, 0}));
-    EXPECT_EQ(report.rounded_vertices, 1U);
-    EXPECT_GT(report.largest_move, 5e-17);
+    EXPECT_EQ(power.apply({1, 0, 0}).point, (Point3d{1, 0, 0}));
+    EXPECT_GT(power.apply({1, 0, 0}).move, 5e-17);
     EXPECT_FALSE(power.is_identity());
-    EXPECT_TRUE(Placement().then(Placement()).is_identity());
+    EXPECT_TRUE(ExactAffine().then(ExactAffine()).is_identity());
 }
 
 /// Row by row in fractions, rounded once.
@@ -61,7 +53,7 @@ Point3d image_in_fractions(const std::array<double, 12>& rows, const Point3d& p,
     return out;
 }
 
-TEST(Placement, AgreesWithFractions) {
+TEST(ExactAffine, AgreesWithFractions) {
     std::mt19937_64 random(3);
     const auto number = [&] {
         const double size = std::ldexp(1.0, static_cast<int>(random() % 60) - 30);
@@ -73,12 +65,12 @@ TEST(Placement, AgreesWithFractions) {
         std::array<double, 12> rows{};
         for (double& r : rows) r = random() % 4 == 0 ? 0 : number();
         const Point3d p{number(), number(), number()};
-        ModelReport report;
         double largest = 0;
         const Point3d expected = image_in_fractions(rows, p, largest);
-        EXPECT_EQ(image(Placement::from_rows(rows), p, report), expected);
-        EXPECT_EQ(report.rounded_vertices, largest > 0 ? 1U : 0U);
-        EXPECT_NEAR(report.largest_move, largest, 0.01 * largest);
+        const ExactAffine::Image image = ExactAffine::from_rows(rows).apply(p);
+        EXPECT_EQ(image.point, expected);
+        EXPECT_EQ(image.move > 0, largest > 0);
+        EXPECT_NEAR(image.move, largest, 0.01 * largest);
     }
 }
 
