@@ -4,6 +4,9 @@
 #include <cstdlib>  // defines __GLIBC__
 
 #ifdef __GLIBC__
+#include <trisect/brep/io/mesh_format.h>
+
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -25,12 +28,29 @@ bool are_on_demand() {
     return std::getline(file, line) && line.find("[madvise]") != std::string::npos;
 }
 
+/// Whether the arguments name meshes and models and no other files, and all of these together are
+/// small. Other files, say a manifest, name further ones.
+bool name_little(int argc, char** argv) {
+    constexpr std::uintmax_t little = 256 << 10;
+    std::uintmax_t bytes = 0;
+    for (int i = 2; i < argc; ++i) {
+        std::error_code failed;
+        const std::filesystem::path path(argv[i]);
+        if (!std::filesystem::exists(path, failed)) continue;
+        if (!mesh_format_of_extension(path)) return false;
+        const std::uintmax_t size = std::filesystem::file_size(path, failed);
+        if (failed) return false;
+        bytes += size;
+    }
+    return bytes > 0 && bytes <= little;
+}
+
 }  // namespace
 
 // The allocator reads its tunables before main, and takes no such request later.
 void demand_large_pages(int argc, char** argv) {
     if (argc < 3 || !__GLIBC_PREREQ(2, 35)) return;
-    if (std::getenv(tunables) != nullptr || !are_on_demand()) return;
+    if (std::getenv(tunables) != nullptr || name_little(argc, argv) || !are_on_demand()) return;
     if (::setenv(tunables, "glibc.malloc.hugetlb=1", 0) != 0) return;
     // By its own name, under which processes are listed. Where that fails, the program goes on.
     std::error_code failed;
