@@ -33,9 +33,12 @@ private:
 /// The words of the protocol.
 const char* status_of(const trisect::Error& error) {
     switch (error.code()) {
-        case trisect::ErrorCode::InvalidSolid: return "invalid_input";
-        case trisect::ErrorCode::Unsupported: return "unsupported";
-        default: return "crash";
+        case trisect::ErrorCode::InvalidSolid:
+            return "invalid_input";
+        case trisect::ErrorCode::Unsupported:
+            return "unsupported";
+        default:
+            return "crash";
     }
 }
 
@@ -135,7 +138,8 @@ json run_case(const json& request, const Settings& settings) {
         }
         return json::object();
     });
-    if (!done.empty() && done.back()["status"] != "success") result["status"] = done.back()["status"];
+    if (!done.empty() && done.back()["status"] != "success")
+        result["status"] = done.back()["status"];
     result.erase("debug_total_ms");
     result["duration_ms"] = all.milliseconds();
     result["ops"] = std::move(done);
