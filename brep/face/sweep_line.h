@@ -10,6 +10,8 @@
 #include <set>
 #include <vector>
 
+#include <trisect/kernel/contract.h>
+
 namespace trisect::detail {
 
 /// Whether edge a lies below edge b where a vertical line meets both; `figure` as in SweepLine. The
@@ -28,7 +30,8 @@ template <class Figure>
 /// `from(edge)` and `to(edge)`, ranks with from < to, and `above(edge, vertex)`, 1 when the vertex
 /// lies above the edge's line, exactly. All operations take O(log n) such signs. Before an edge is
 /// opened or advanced to, the edges that end at its first vertex must be gone; the order in which
-/// edges at one vertex come and go is free otherwise.
+/// edges at one vertex come and go is free otherwise. \throw InternalError for edges that overlap
+/// and for edges that end twice; those that cross make answers worthless, and nothing worse.
 template <class Figure>
 class SweepLine {
 public:
@@ -43,12 +46,19 @@ public:
     Index open(Index edge) {
         const auto region = static_cast<Index>(edge_.size());
         edge_.push_back(edge);
-        where_.push_back(line_.insert(region).first);
+        const auto [where, is_new] = line_.insert(region);
+        TRISECT_EXPECTS(is_new, "edges that do not overlap");
+        where_.push_back(where);
         return region;
     }
     /// The region's lower edge ends and `edge` goes on.
     void advance(Index region, Index edge) { edge_[region] = edge; }
-    void close(Index region) { line_.erase(where_[region]); }
+    void close(Index region) {
+        TRISECT_EXPECTS(region < where_.size() && where_[region] != line_.end(),
+                        "an edge that ends once");
+        line_.erase(where_[region]);
+        where_[region] = line_.end();
+    }
     [[nodiscard]] Index edge(Index region) const { return edge_[region]; }
 
     /// The region of the highest edge that is strictly below a vertex, or none.

@@ -51,7 +51,7 @@ class SweepTriangulator {
 public:
     SweepTriangulator(const Plane& plane, std::span<const Point> points,
                       std::span<const IndexLoop> loops)
-        : figure_(plane, points, loops), line_(figure_), region_of_(figure_.corner_count()) {}
+        : figure_(plane, points, loops), line_(figure_), region_of_(figure_.corner_count(), decltype(line_)::none) {}
 
     std::vector<IndexTriangle> run() {
         const std::size_t wanted =
@@ -119,7 +119,11 @@ private:
         TRISECT_EXPECTS(r != decltype(line_)::none, "a corner of a face has an edge below");
         return regions_[r];
     }
-    [[nodiscard]] Index region_above_edge_to(Index c) const { return region_of_[figure_.prev(c)]; }
+    [[nodiscard]] Index region_above_edge_to(Index c) const {
+        const Index r = region_of_[figure_.prev(c)];
+        TRISECT_EXPECTS(r < regions_.size(), "an edge that began before it ends");
+        return r;
+    }
 
     void run_on(Index c) {
         const Index r = region_above_edge_to(c);

@@ -13,6 +13,7 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/hull.h>
 #include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/bsp/solid/resolved.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/error.h>
 
@@ -121,7 +122,9 @@ ConvexPieces triangles_of(const PolygonMesh& mesh) {
 
 }  // namespace
 
-ConvexPieces pieces_of_boundary(const Solid& solid) { return triangles_of(solid.to_mesh()); }
+ConvexPieces pieces_of_boundary(const Solid& solid) {
+    return triangles_of(resolved(solid).to_mesh());
+}
 
 ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options) {
     const PolygonMesh mesh = solid.to_mesh();

@@ -59,11 +59,21 @@ private:
         const double turn = std::atan2(cross(before, after), dot(before, after));
         if (!(turn * distance_ > 0)) return;
         Outline piece{at, moved(at, before, distance_)};
-        if (options_.corners == Corners::Round) add_arc(piece, at, before, turn);
-        if (options_.corners == Corners::Miter) add_miter(piece, at, before, after);
-        if (options_.corners == Corners::Chamfer) add_chamfer(piece, at, before, after, turn);
+        const Corners corners = corners_for(before, after);
+        if (corners == Corners::Round) add_arc(piece, at, before, turn);
+        if (corners == Corners::Miter) add_miter(piece, at, before, after);
+        if (corners == Corners::Chamfer) add_chamfer(piece, at, before, after, turn);
         piece.push_back(moved(at, after, distance_));
         add(piece);
+    }
+
+    // The tip of a miter is sqrt(2 / (1 + cos)) distances away.
+    [[nodiscard]] Corners corners_for(const Point2d& before, const Point2d& after) const {
+        const double limit = options_.miter_limit;
+        const bool is_too_far =
+            std::isfinite(limit) && (1 + dot(before, after)) * limit * limit < 2 - 0x1p-40;
+        return options_.corners == Corners::Miter && is_too_far ? Corners::Chamfer
+                                                                : options_.corners;
     }
 
     void add_arc(Outline& piece, const Point2d& at, const Point2d& before, double turn) const {
@@ -105,6 +115,7 @@ private:
 Solid offset_of_region(const Solid& prism, double distance, const OffsetOptions& options) {
     if (!std::isfinite(distance)) throw UsageError("an offset must be finite");
     if (options.segments < 3) throw UsageError("an arc needs at least three segments to a circle");
+    if (!(options.miter_limit >= 1)) throw UsageError("a limit of miters must be at least 1");
     if (distance == 0 || prism.is_empty()) return prism;
     const PlaneRegion region = region_of_faces(prism, 1);
     Strips strips(distance, options);

@@ -122,7 +122,13 @@ struct Rect {
     [[nodiscard]] bool Contains(const vec2& p) const {
         return la::min(min, p) == min && la::max(max, p) == max;
     }
-    [[nodiscard]] bool Contains(const Rect& r) const { return Contains(r.min) && Contains(r.max); }
+    /// An empty rectangle is within all.
+    [[nodiscard]] bool Contains(const Rect& r) const {
+        return la::min(min, r.min) == min && la::max(max, r.max) == max;
+    }
+    [[nodiscard]] bool DoesOverlap(const Rect& r) const {
+        return min.x <= r.max.x && min.y <= r.max.y && max.x >= r.min.x && max.y >= r.min.y;
+    }
     void Union(const vec2& p) {
         min = la::min(min, p);
         max = la::max(max, p);

@@ -24,6 +24,11 @@ public:
     CrossSection(const SimplePolygon& contour);  // NOLINT(google-explicit-constructor)
     CrossSection(const Polygons& contours);      // NOLINT(google-explicit-constructor)
     CrossSection(const Rect& rect);              // NOLINT(google-explicit-constructor)
+    /// The points about which the contours wind an odd number of times, whichever way they run.
+    static CrossSection EvenOdd(const SimplePolygon& contour) { return EvenOdd(Polygons{contour}); }
+    static CrossSection EvenOdd(const Polygons& contours);
+    /// Regions that have no points in common but corners, each with its holes.
+    [[nodiscard]] std::vector<CrossSection> Decompose() const;
     static CrossSection Square(vec2 dims, bool center = false);
     static CrossSection Circle(double radius, int circularSegments = 0);
     [[nodiscard]] Polygons ToPolygons() const { return polygons_; }
@@ -34,6 +39,10 @@ public:
     [[nodiscard]] Rect Bounds() const;
     [[nodiscard]] double Area() const;
 
+    /// There is no tolerance: nothing is nearer than what doubles distinguish.
+    [[nodiscard]] double GetTolerance() const { return 0; }
+    [[nodiscard]] CrossSection SetTolerance(double /*tolerance*/) const { return *this; }
+
     [[nodiscard]] CrossSection Translate(vec2 by) const;
     [[nodiscard]] CrossSection Rotate(double degrees) const;
     [[nodiscard]] CrossSection Scale(vec2 by) const;
@@ -42,6 +51,8 @@ public:
     /// Without corners that are nearer than `tolerance` to the line between their neighbours.
     [[nodiscard]] CrossSection Simplify(double tolerance = 0) const;
     [[nodiscard]] CrossSection Warp(const std::function<void(vec2&)>& warp) const;
+
+    [[nodiscard]] CrossSection WarpBatch(const std::function<void(VecView<vec2>)>& warp) const;
 
     [[nodiscard]] CrossSection Boolean(const CrossSection& second, OpType op) const {
         return BatchBoolean({*this, second}, op);
@@ -56,7 +67,10 @@ public:
 
     [[nodiscard]] CrossSection Hull() const;
     static CrossSection Hull(const SimplePolygon& points);
-    /// \throw NotSupported
+    static CrossSection Hull(const Polygons& polygons);
+    static CrossSection Hull(const std::vector<CrossSection>& sections);
+    /// Corners are rounded once, and the result again. A bevel is a cut between the ends of the
+    /// moved edges; beyond the limit a miter is a square join.
     [[nodiscard]] CrossSection Offset(double delta, JoinType joins = JoinType::Round,
                                       double miterLimit = 2, int circularSegments = 0) const;
 

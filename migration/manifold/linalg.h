@@ -229,6 +229,19 @@ T maxelem(const vec<T, M>& a) {
     return most;
 }
 
+template <class T, int M>
+vec<bool, M> isfinite(const vec<T, M>& a) {
+    vec<bool, M> result;
+    for (int i = 0; i < M; ++i) result[i] = std::isfinite(a[i]);
+    return result;
+}
+template <int M>
+bool all(const vec<bool, M>& a) {
+    for (int i = 0; i < M; ++i)
+        if (!a[i]) return false;
+    return true;
+}
+
 struct identity_t {};
 inline constexpr identity_t identity{};
 
@@ -258,6 +271,12 @@ struct mat {
         for (int j = 0; j < N; ++j) (*this)[j] = Column(other[j]);
     }
     /// The first N columns of a wider matrix.
+    /// The upper rows of a taller matrix.
+    template <int Taller>
+    requires(Taller > M) constexpr explicit mat(const mat<T, Taller, N>& other) {
+        for (int k = 0; k < N; ++k)
+            for (int i = 0; i < M; ++i) (*this)[k][i] = other[k][i];
+    }
     template <int Wider>
     requires(Wider > N) constexpr explicit mat(const mat<T, M, Wider>& other) {
         for (int j = 0; j < N; ++j) (*this)[j] = other[j];

@@ -2,9 +2,14 @@
 
 #include "planar.h"
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 
@@ -36,7 +41,52 @@ std::optional<std::vector<Triple>> triangulated(const Polygons& polygons) {
     }
 }
 
+namespace {
+
+// Where the winding number is positive, even if most of it is negative.
+trisect::Solid set_of(const trisect::PolygonMesh& mesh) {
+    if (mesh.face_count() == 0) return {};
+    const trisect::SolidOptions options{.embedding = trisect::Embedding::Check,
+                                        .inside_out = trisect::InsideOut::Accept};
+    return trisect::evaluate(trisect::Solid::from_mesh(mesh, options));
+}
+
+// Whatever triangles have the polygons for their boundary wind about each point as often.
+std::optional<trisect::Solid> triangulated_prism(const Polygons& polygons) {
+    const std::optional<std::vector<Triple>> caps = triangulated(polygons);
+    if (!caps) return std::nullopt;
+    trisect::PolygonMesh mesh;
+    for (const SimplePolygon& polygon : polygons)
+        for (const vec2& p : polygon) mesh.points.push_back({p.x, p.y, 0});
+    const auto up = static_cast<std::uint32_t>(mesh.points.size());
+    for (std::uint32_t i = 0; i < up; ++i)
+        mesh.points.push_back({mesh.points[i][0], mesh.points[i][1], 1});
+    for (const auto& [a, b, c] : *caps) {
+        mesh.add_triangle(a, c, b);
+        mesh.add_triangle(a + up, b + up, c + up);
+    }
+    std::uint32_t begin = 0;
+    for (const SimplePolygon& polygon : polygons) {
+        const auto n = static_cast<std::uint32_t>(polygon.size());
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const std::uint32_t a = begin + i;
+            const std::uint32_t b = begin + (i + 1) % n;
+            mesh.add_triangle(a, b, b + up);
+            mesh.add_triangle(a, b + up, a + up);
+        }
+        begin += n;
+    }
+    try {
+        return set_of(mesh);
+    } catch (const trisect::InvalidSolid&) {  // the triangles bound something else
+        return std::nullopt;
+    }
+}
+
+}  // namespace
+
 trisect::Solid prism_over(const Polygons& polygons) {
+    if (std::optional<trisect::Solid> prism = triangulated_prism(polygons)) return *prism;
     trisect::PolygonMesh mesh;
     for (const SimplePolygon& polygon : polygons) {
         const auto n = static_cast<std::uint32_t>(polygon.size());
@@ -56,23 +106,52 @@ trisect::Solid prism_over(const Polygons& polygons) {
             mesh.add_triangle(base + n, a + n, b + n);
         }
     }
-    trisect::ImportedMesh imported = trisect::import_mesh(mesh);
-    if (imported.mesh.triangles.empty() || imported.report.inside_out) return {};
-    return trisect::Solid::from_import(std::move(imported), trisect::Embedding::Check);
+    return set_of(mesh);
+}
+
+// A point is in an odd number of the triangles of a fan where the polygon winds an odd number of
+// times about it.
+trisect::Solid prism_by_parity(const Polygons& polygons) {
+    std::vector<trisect::Expression> triangles;
+    for (const SimplePolygon& polygon : polygons)
+        for (std::size_t i = 2; i < polygon.size(); ++i) {
+            SimplePolygon triangle{polygon[0], polygon[i - 1], polygon[i]};
+            if (la::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]) < 0)
+                std::swap(triangle[1], triangle[2]);
+            triangles.emplace_back(prism_over({triangle}));
+        }
+    if (triangles.empty()) return {};
+    // Pairs of pairs, so that few are about at once.
+    while (triangles.size() > 1) {
+        std::vector<trisect::Expression> pairs;
+        for (std::size_t i = 1; i < triangles.size(); i += 2)
+            pairs.push_back(triangles[i - 1] ^ triangles[i]);
+        if (triangles.size() % 2 == 1) pairs.push_back(triangles.back());
+        triangles = std::move(pairs);
+    }
+    return trisect::evaluate(triangles.front());
+}
+
+std::vector<Polygons> regions_of(const trisect::Solid& solid, double height) {
+    std::vector<Polygons> regions;
+    if (solid.is_empty()) return regions;
+    for (const trisect::SectionRegion& region :
+         trisect::BrepIndex(solid).section({0, 0, 1, -height})) {
+        Polygons& polygons = regions.emplace_back();
+        const auto add = [&polygons](const trisect::SectionLoop& loop) {
+            SimplePolygon& polygon = polygons.emplace_back();
+            for (const trisect::Point3d& p : loop.rounded) polygon.push_back({p[0], p[1]});
+        };
+        add(region.outer);
+        for (const trisect::SectionLoop& hole : region.holes) add(hole);
+    }
+    return regions;
 }
 
 Polygons section_of(const trisect::Solid& solid, double height) {
     Polygons polygons;
-    if (solid.is_empty()) return polygons;
-    const auto add = [&](const trisect::SectionLoop& loop) {
-        SimplePolygon& polygon = polygons.emplace_back();
-        for (const trisect::Point3d& p : loop.rounded) polygon.push_back({p[0], p[1]});
-    };
-    for (const trisect::SectionRegion& region :
-         trisect::BrepIndex(solid).section({0, 0, 1, -height})) {
-        add(region.outer);
-        for (const trisect::SectionLoop& hole : region.holes) add(hole);
-    }
+    for (Polygons& region : regions_of(solid, height))
+        std::ranges::move(region, std::back_inserter(polygons));
     return polygons;
 }
 

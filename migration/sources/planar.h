@@ -17,6 +17,10 @@ namespace manifold {
 [[nodiscard]] std::optional<std::vector<Triple>> triangulated(const Polygons& polygons);
 /// The prism of height 1 over all points about which the polygons wind a positive number of times.
 [[nodiscard]] trisect::Solid prism_over(const Polygons& polygons);
+/// The prism of height 1 over all points about which the polygons wind an odd number of times.
+[[nodiscard]] trisect::Solid prism_by_parity(const Polygons& polygons);
+/// The region of a section, its outline first.
+[[nodiscard]] std::vector<Polygons> regions_of(const trisect::Solid& solid, double height);
 /// Outlines and holes of the section at a height.
 [[nodiscard]] Polygons section_of(const trisect::Solid& solid, double height);
 

@@ -7,6 +7,7 @@
 #include <manifold/cross_section.h>
 #include <manifold/manifold.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/modelling/offset.h>
 
 #include "node.h"
 #include "planar.h"
@@ -21,18 +22,59 @@ constexpr double middle = 0.5;
 double area_of(const SimplePolygon& polygon) {
     double twice = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
-        twice += la::cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+        twice += la::cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
     return twice / 2;
+}
+
+bool are_finite(const Polygons& polygons) {
+    const auto is_finite = [](const vec2& p) { return la::all(la::isfinite(p)); };
+    return std::ranges::all_of(polygons, [&](const SimplePolygon& polygon) {
+        return std::ranges::all_of(polygon, is_finite);
+    });
+}
+
+// Douglas and Peucker 1973: what is left of the way from one corner to another.
+void simplify(const SimplePolygon& polygon, std::size_t from, std::size_t to, double tolerance,
+              SimplePolygon& kept) {
+    const vec2 start = polygon[from];
+    const vec2 along = polygon[to % polygon.size()] - start;
+    const double length = la::length(along);
+    std::size_t farthest = from;
+    double most = -1;
+    for (std::size_t i = from + 1; i < to; ++i) {
+        const vec2 off = polygon[i] - start;
+        const double apart =
+            length > 0 ? std::abs(la::cross(along, off)) / length : la::length(off);
+        if (apart > most) most = apart, farthest = i;
+    }
+    if (most < tolerance || (most == 0 && tolerance == 0)) return;
+    simplify(polygon, from, farthest, tolerance, kept);
+    kept.push_back(polygon[farthest]);
+    simplify(polygon, farthest, to, tolerance, kept);
 }
 
 }  // namespace
 
 CrossSection::CrossSection(const SimplePolygon& contour) : CrossSection(Polygons{contour}) {}
-CrossSection::CrossSection(const Polygons& contours)
-    : polygons_(section_of(prism_over(contours), middle)) {}
+CrossSection::CrossSection(const Polygons& contours) {
+    if (are_finite(contours)) polygons_ = section_of(prism_over(contours), middle);
+}
 CrossSection::CrossSection(const Rect& rect) {
     if (rect.IsEmpty()) return;
     polygons_ = {{rect.min, {rect.max.x, rect.min.y}, rect.max, {rect.min.x, rect.max.y}}};
+}
+
+CrossSection CrossSection::EvenOdd(const Polygons& contours) {
+    CrossSection section;
+    if (are_finite(contours)) section.polygons_ = section_of(prism_by_parity(contours), middle);
+    return section;
+}
+
+std::vector<CrossSection> CrossSection::Decompose() const {
+    std::vector<CrossSection> parts;
+    for (Polygons& region : regions_of(prism_over(polygons_), middle))
+        parts.emplace_back().polygons_ = std::move(region);
+    return parts;
 }
 
 CrossSection CrossSection::Square(vec2 dims, bool center) {
@@ -72,6 +114,8 @@ Rect CrossSection::Bounds() const {
 }
 
 CrossSection CrossSection::Transform(const mat2x3& m) const {
+    for (int k = 0; k < 3; ++k)
+        if (!la::all(la::isfinite(m[k]))) return *this;
     CrossSection moved = *this;
     const bool turned = la::cross(m[0], m[1]) < 0;
     for (SimplePolygon& polygon : moved.polygons_) {
@@ -105,21 +149,30 @@ CrossSection CrossSection::Warp(const std::function<void(vec2&)>& warp) const {
     return moved;
 }
 
+CrossSection CrossSection::WarpBatch(const std::function<void(VecView<vec2>)>& warp) const {
+    SimplePolygon all;
+    for (const SimplePolygon& polygon : polygons_)
+        all.insert(all.end(), polygon.begin(), polygon.end());
+    warp(all);
+    Polygons moved;
+    std::size_t begin = 0;
+    for (const SimplePolygon& polygon : polygons_) {
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(begin);
+        moved.emplace_back(from, from + static_cast<std::ptrdiff_t>(polygon.size()));
+        begin += polygon.size();
+    }
+    return moved;
+}
+
 CrossSection CrossSection::Simplify(double tolerance) const {
     CrossSection result;
-    for (const SimplePolygon& polygon : polygons_) {
-        SimplePolygon kept = polygon;
-        for (std::size_t i = 0; i < kept.size() && kept.size() > 2;) {
-            const vec2 before = kept[(i + kept.size() - 1) % kept.size()];
-            const vec2 along = kept[(i + 1) % kept.size()] - before;
-            const double length = la::length(along);
-            const double apart = length > 0 ? std::abs(la::cross(along, kept[i] - before)) / length
-                                            : la::length(kept[i] - before);
-            if (apart < tolerance)
-                kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
-            else
-                ++i;
-        }
+    for (SimplePolygon polygon : polygons_) {
+        // From a corner of the box, which stays.
+        std::ranges::rotate(polygon, std::ranges::min_element(polygon, {}, [](const vec2& p) {
+                                return std::pair(p.x, p.y);
+                            }));
+        SimplePolygon kept{polygon[0]};
+        simplify(polygon, 0, polygon.size(), tolerance, kept);
         if (kept.size() > 2) result.polygons_.push_back(std::move(kept));
     }
     return result;
@@ -141,6 +194,7 @@ CrossSection CrossSection::BatchBoolean(const std::vector<CrossSection>& section
 }
 
 CrossSection CrossSection::Hull(const SimplePolygon& points) {
+    if (!are_finite({points})) return {};
     SimplePolygon sorted = points;
     std::ranges::sort(sorted, {}, [](const vec2& p) { return std::pair(p.x, p.y); });
     SimplePolygon hull;
@@ -160,15 +214,36 @@ CrossSection CrossSection::Hull(const SimplePolygon& points) {
     if (hull.size() > 2) section.polygons_.push_back(std::move(hull));
     return section;
 }
-CrossSection CrossSection::Hull() const {
+CrossSection CrossSection::Hull() const { return Hull(polygons_); }
+CrossSection CrossSection::Hull(const Polygons& polygons) {
     SimplePolygon points;
-    for (const SimplePolygon& polygon : polygons_)
+    for (const SimplePolygon& polygon : polygons)
         points.insert(points.end(), polygon.begin(), polygon.end());
     return Hull(points);
 }
-CrossSection CrossSection::Offset(double /*delta*/, JoinType /*joins*/, double /*miterLimit*/,
-                                  int /*circularSegments*/) const {
-    throw NotSupported("CrossSection::Offset");
+CrossSection CrossSection::Hull(const std::vector<CrossSection>& sections) {
+    Polygons polygons;
+    for (const CrossSection& section : sections)
+        polygons.insert(polygons.end(), section.polygons_.begin(), section.polygons_.end());
+    return Hull(polygons);
+}
+
+CrossSection CrossSection::Offset(double delta, JoinType joins, double miterLimit,
+                                  int circularSegments) const {
+    if (!std::isfinite(delta)) return {};
+    using Corners = trisect::OffsetOptions::Corners;
+    trisect::OffsetOptions options;
+    options.corners = joins == JoinType::Round   ? Corners::Round
+                      : joins == JoinType::Miter ? Corners::Miter
+                      : joins == JoinType::Bevel ? Corners::Bevel
+                                                 : Corners::Chamfer;
+    options.miter_limit = miterLimit >= 2 ? miterLimit : 2;
+    options.segments = static_cast<std::uint32_t>(
+        circularSegments > 2 ? circularSegments : Quality::GetCircularSegments(std::abs(delta)));
+    CrossSection result;
+    result.polygons_ =
+        section_of(trisect::offset_of_region(prism_over(polygons_), delta, options), middle);
+    return result;
 }
 
 Polygons Manifold::Slice(double height) const {

@@ -2,6 +2,7 @@
 //
 // Solids made of solids: hulls, Minkowski sums, projections, offsets, and programs of OpenSCAD.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,8 @@ OffsetOptions::Corners corners_of(const std::string& word) {
     if (word == "round") return OffsetOptions::Corners::Round;
     if (word == "miter") return OffsetOptions::Corners::Miter;
     if (word == "chamfer") return OffsetOptions::Corners::Chamfer;
-    throw UsageError("corners: must be 'round', 'miter' or 'chamfer', not '" + word + "'");
+    if (word == "bevel") return OffsetOptions::Corners::Bevel;
+    throw UsageError("corners: must be 'round', 'miter', 'chamfer' or 'bevel', not '" + word + "'");
 }
 
 void bind_hulls(py::class_<Solid>& c) {
@@ -87,24 +89,30 @@ cut : float or None
 )");
     c.def(
         "offset",
-        [](const Solid& s, double distance, const std::string& corners, std::uint32_t segments) {
+        [](const Solid& s, double distance, const std::string& corners, std::uint32_t segments,
+           double miter_limit) {
             return run_on_threads([&](std::uint32_t threads) {
                 OffsetOptions options;
                 options.corners = corners_of(corners);
                 options.segments = segments;
+                options.miter_limit = miter_limit;
                 options.evaluate.threads = threads;
                 return offset_of_region(s, distance, options);
             });
         },
         py::arg("distance"), py::kw_only(), py::arg("corners") = "round", py::arg("segments") = 32,
+        py::arg("miter_limit") = std::numeric_limits<double>::infinity(),
         R"(A region of the plane, as a prism between z = 0 and z = 1, grown, or shrunk by less than 0.
 
 Parameters
 ----------
 distance : float
-corners : {'round', 'miter', 'chamfer'}
+corners : {'round', 'miter', 'chamfer', 'bevel'}
+    Arcs; edges go on until they meet; a cut as far from the corner as the edges are; a cut between their ends.
 segments : int
     Of a whole circle.
+miter_limit : float
+    Where edges would meet farther from the corner than so many times the distance, there is a chamfer.
 )");
 }
 

@@ -296,8 +296,9 @@ class Solid:
         self,
         distance: float,
         *,
-        corners: Literal["round", "miter", "chamfer"] = "round",
+        corners: Literal["round", "miter", "chamfer", "bevel"] = "round",
         segments: int = 32,
+        miter_limit: float = ...,
     ) -> Solid: ...
     @staticmethod
     def from_csg(text: str, *, folder: Optional[str] = None) -> Solid: ...

@@ -438,5 +438,30 @@ TEST(Triangulate, ManyOutlinesInHolesOfEachOther) {
     expect_large(loops);
 }
 
+// What the precondition forbids ends in an error or in triangles of no use, and in nothing worse.
+TEST(Triangulate, LoopsThatOverlapAreRefusedOrSurvived) {
+    const Figure overlapping =
+        figure({{{0, 0}, {10, 0}, {10, 1}, {0, 1}}, {{3, 0}, {7, 0}, {7, 2}, {3, 2}}},
+               Placement::Flat, true);
+    EXPECT_THROW(
+        (void)triangulate(plane_of(Placement::Flat), overlapping.points, overlapping.loops), Error);
+    std::mt19937 random(27);
+    std::uniform_int_distribution<std::int64_t> at(0, 5);
+    std::uniform_int_distribution<int> corners(3, 8);
+    int refused = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Loops loops(static_cast<std::size_t>(1 + i % 3));
+        for (Loop& loop : loops)
+            for (int k = corners(random); k > 0; --k) loop.push_back({at(random), at(random)});
+        const Figure any = figure(loops, Placement::Flat, i % 2 == 0);
+        try {
+            (void)triangulate(plane_of(Placement::Flat), any.points, any.loops);
+        } catch (const Error&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 1000);
+}
+
 }  // namespace
 }  // namespace triangulate_test

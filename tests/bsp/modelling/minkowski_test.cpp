@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/expression.h>
@@ -44,6 +45,15 @@ TEST(Minkowski, PartsThatAreApart) {
     const Solid two = evaluate(box({0, 0, 0}, {1, 1, 1}) | box({10, 0, 0}, {11, 1, 1}));
     EXPECT_EQ(volume_of(minkowski_sum(two, two)), "24");
     EXPECT_EQ(volume_of(minkowski_difference(box({0, 0, 0}, {12, 4, 4}), two)), "9");
+}
+
+// Two boxes in one mesh, overlapping: the walls of each within the other are no boundary.
+TEST(Minkowski, DifferenceOfAMeshThatMeetsItself) {
+    PolygonMesh both = make_box({0, 0, 0}, {4, 4, 4});
+    append(both, make_box({2, 0, 0}, {6, 4, 4}));
+    const Solid overlapping = Solid::from_mesh(both, {.embedding = Embedding::Check});
+    EXPECT_EQ(volume_of(minkowski_difference(overlapping, box({0, 0, 0}, {1, 1, 1}))), "45");
+    EXPECT_EQ(volume_of(minkowski_sum(overlapping, box({0, 0, 0}, {1, 1, 1}))), "175");
 }
 
 TEST(Minkowski, DifferencesUndoSumsOfBoxes) {

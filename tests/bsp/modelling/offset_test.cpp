@@ -49,6 +49,30 @@ TEST(Offset, ArcsBeginWhereTheEdgeBeforeThemEnds) {
     EXPECT_NEAR(area_of(square(0, 10), 1, Corners::Round, 7), 140 + 4 * corner, 1e-12);
 }
 
+TEST(Offset, MitersHaveALimit) {
+    OffsetOptions options;
+    options.corners = Corners::Miter;
+    // The corner of a square is sqrt(2) distances away from the corner of the grown one.
+    options.miter_limit = std::sqrt(2.0);
+    EXPECT_EQ(volume(offset_of_region(square(0, 10), 2, options)), 196);
+    options.miter_limit = 1.41;
+    const double chamfered = volume(offset_of_region(square(0, 10), 2, options));
+    EXPECT_EQ(chamfered, area_of(square(0, 10), 2, Corners::Chamfer));
+    options.miter_limit = 0.5;
+    EXPECT_THROW((void)offset_of_region(square(0, 10), 2, options), UsageError);
+}
+
+TEST(Offset, BevelsAreOneCut) { EXPECT_EQ(area_of(square(0, 10), 2, Corners::Bevel), 196 - 8); }
+
+// Two squares in one mesh, overlapping: the walls of each within the other bound nothing.
+TEST(Offset, OfAMeshThatMeetsItself) {
+    PolygonMesh both = make_box({0, 0, 0}, {2, 2, 1});
+    append(both, make_box({1, 1, 0}, {3, 3, 1}));
+    const Solid overlapping = Solid::from_mesh(both, {.embedding = Embedding::Check});
+    EXPECT_EQ(area_of(overlapping, 0.5, Corners::Miter), 14);
+    EXPECT_EQ(area_of(overlapping, -0.25, Corners::Miter), 4.25);
+}
+
 TEST(Offset, Refusals) {
     EXPECT_THROW((void)area_of(square(0, 1), NAN, Corners::Round), UsageError);
     EXPECT_THROW((void)area_of(square(0, 1), 1, Corners::Round, 2), UsageError);
