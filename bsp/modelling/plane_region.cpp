@@ -5,7 +5,7 @@
 #include <array>
 
 #include <trisect/brep/brep_mesh.h>
-#include <trisect/bsp/solid/resolved.h>
+#include <trisect/bsp/expression.h>
 
 namespace trisect {
 namespace {
@@ -47,7 +47,8 @@ void add_face(PlaneRegion& out, const Brep& brep, FaceId f, bool turn_over) {
 
 PlaneRegion region_of_faces(const Solid& solid, double height, FacesLook look) {
     PlaneRegion out;
-    const Brep brep = detail::resolved(solid).to_brep();
+    // A mesh that meets itself is resolved by that: its own faces have walls inside the set.
+    const Brep brep = evaluate(solid).to_brep();
     const PolygonMesh mesh = to_polygon_mesh(brep);
     for (const Point3d& p : mesh.points) out.points.push_back({p[0], p[1]});
     for (const FaceId f : brep.faces())

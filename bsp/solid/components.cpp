@@ -19,7 +19,7 @@
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/evaluate/named_boundary.h>
-#include <trisect/bsp/solid/resolved.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/predicates.h>
 
@@ -148,7 +148,7 @@ std::vector<Solid> components(const Solid& solid) {
     if (solid.is_empty()) return {};
     if (detail::state_of(solid)->far_out == 1)
         throw UnsupportedError("an unbounded set has no components as solids");
-    const Solid resolved = detail::resolved(solid);
+    const Solid resolved = detail::state_of(solid)->embedded ? solid : evaluate(Expression(solid));
     const Brep brep = resolved.to_brep();
     if (detail::state_of(solid)->far_out < 0 && exact_volume(brep).sign() < 0)
         throw UnsupportedError("an unbounded set has no components as solids");

@@ -4,7 +4,7 @@
 
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/solid/resolved.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -14,7 +14,9 @@ namespace {
 // A boundary that may meet itself is made free of that first. Names of faces do not matter here, so
 // nothing need be cut for them.
 ExactMesh boundary_of(const Solid& solid) {
-    return detail::assemble_exact_mesh(*detail::state_of(detail::resolved(solid)));
+    const bool embedded = detail::state_of(solid)->embedded;
+    const Solid resolved = embedded ? solid : evaluate(Expression(solid));
+    return detail::assemble_exact_mesh(*detail::state_of(resolved));
 }
 
 ExactMesh bounded_boundary_of(const Solid& solid) {
