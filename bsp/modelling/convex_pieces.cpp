@@ -12,8 +12,8 @@
 
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/hull.h>
+#include <trisect/bsp/expression.h>
 #include <trisect/bsp/modelling/plane_region.h>
-#include <trisect/bsp/solid/resolved.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/error.h>
 
@@ -122,8 +122,9 @@ ConvexPieces triangles_of(const PolygonMesh& mesh) {
 
 }  // namespace
 
+// A mesh that meets itself is resolved by evaluation: its own faces have walls inside the set.
 ConvexPieces pieces_of_boundary(const Solid& solid) {
-    return triangles_of(resolved(solid).to_mesh());
+    return triangles_of(evaluate(solid).to_mesh());
 }
 
 ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options) {
