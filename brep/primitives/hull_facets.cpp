@@ -15,7 +15,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-Vector difference(const LatticePoint& a, const LatticePoint& b) {
+Vector rounded_difference(const LatticePoint& a, const LatticePoint& b) {
     const Vector p = a.doubles();
     const Vector q = b.doubles();
     return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
@@ -81,14 +81,15 @@ std::array<std::uint32_t, 4> HullFacets::first_four() const {
     const auto square = [](const Vector& v) { return dot(v, v); };
     const std::uint32_t b = one_that(
         points_,
-        farthest(points_, [&](const LatticePoint& p) { return square(difference(p, pa)); }),
+        farthest(points_, [&](const LatticePoint& p) { return square(rounded_difference(p, pa)); }),
         [&](const LatticePoint& p) { return p != pa; });
     const LatticePoint& pb = points_[b];
-    const Vector way = difference(pb, pa);
+    const Vector way = rounded_difference(pb, pa);
     const std::uint32_t c = one_that(
         points_,
-        farthest(points_,
-                 [&](const LatticePoint& p) { return square(cross(way, difference(p, pa))); }),
+        farthest(
+            points_,
+            [&](const LatticePoint& p) { return square(cross(way, rounded_difference(p, pa))); }),
         [&](const LatticePoint& p) { return !are_collinear(pa, pb, p); });
     const Plane base = Plane::through(pa, pb, points_[c]);
     const std::uint32_t d = one_that(
