@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Builds and runs the consumer of tests/consumer with the package that was just made."""
+"""Builds and runs the consumers of tests/consumer with the package that was just made."""
 import os
 
 from conan import ConanFile
@@ -27,4 +27,5 @@ class TrisectTest(ConanFile):
 
     def test(self):
         if can_run(self):
-            self.run(os.path.join(self.cpp.build.bindir, "consumer"), env="conanrun")
+            for program in ("consumer", "from_manifold"):
+                self.run(os.path.join(self.cpp.build.bindir, program), env="conanrun")
