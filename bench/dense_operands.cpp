@@ -145,4 +145,78 @@ std::vector<PolygonMesh> plate_and_path(std::size_t n) {
     return out;
 }
 
+namespace {
+
+/// About an axis along z; coordinates are multiples of 2^-24, so that copies are exact.
+PolygonMesh prism(std::uint32_t sides, double radius, const Point3d& foot, double height) {
+    PolygonMesh out;
+    for (const double z : {foot[2], foot[2] + height})
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double angle = 2 * std::numbers::pi * i / sides;
+            const auto rounded = [](double v) { return std::round(v * 0x1p24) * 0x1p-24; };
+            out.points.push_back({foot[0] + rounded(radius * std::cos(angle)),
+                                  foot[1] + rounded(radius * std::sin(angle)), z});
+        }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t j = (i + 1) % sides;
+        if (i + 2 < sides) {
+            out.add_triangle(0, i + 2, i + 1);
+            out.add_triangle(sides, sides + i + 1, sides + i + 2);
+        }
+        out.add_triangle(i, j, sides + j);
+        out.add_triangle(i, sides + j, sides + i);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<PolygonMesh> copies_along_axis(std::size_t n) {
+    PolygonMesh mesh = globe(0.02);
+    for (Point3d& p : mesh.points)
+        for (double& c : p) c = std::round(c * 0x1p24) * 0x1p-24;
+    std::vector<PolygonMesh> out;
+    for (std::size_t i = 0; i < n; ++i) {
+        out.push_back(mesh);
+        for (Point3d& p : mesh.points) p[0] += 0x1p-5;
+    }
+    return out;
+}
+
+std::vector<PolygonMesh> prisms_on_floor(std::size_t n) {
+    std::vector<PolygonMesh> out;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(n);
+        out.push_back(prism(200, 2 - part, {0, 0, 0}, 1 + part));
+    }
+    return out;
+}
+
+std::vector<PolygonMesh> stacked_prisms(std::size_t n) {
+    std::vector<PolygonMesh> out;
+    for (std::size_t i = 0; i < n; ++i)
+        out.push_back(prism(200, 1, {0, 0, 0.25 * static_cast<double>(i)}, 0.25));
+    return out;
+}
+
+std::vector<PolygonMesh> plate_and_drills(std::size_t n, bool through) {
+    const auto rows = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
+    const double reach = 0.5 * static_cast<double>(rows) + 1;
+    std::vector<PolygonMesh> out{shapes::block({-1, -1, -0.5}, {reach, reach, 0.5}, 10)};
+    for (std::size_t i = 0; i < n; ++i)
+        out.push_back(prism(100, 0.1875,
+                            {0.5 * static_cast<double>(i % rows) + 0.0625,
+                             0.5 * static_cast<double>(i / rows) + 0.0625, through ? -0.5 : 0.0},
+                            through ? 1.0 : 0.5));
+    return out;
+}
+
+std::vector<PolygonMesh> plate_and_slot(std::size_t n) {
+    const double reach = 0.0625 * static_cast<double>(n) + 1;
+    std::vector<PolygonMesh> out{shapes::block({-1, -1, -0.5}, {reach, 1, 0.5}, 10)};
+    for (std::size_t i = 0; i < n; ++i)
+        out.push_back(prism(100, 0.5, {0.0625 * static_cast<double>(i), 0.03125, 0}, 0.5));
+    return out;
+}
+
 }  // namespace bench

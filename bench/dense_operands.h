@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Families of solids that share most of their volume, some 800 triangles each.
+// Families of many solids, most of which share most of their volume.
+// Where nothing else is said they have some 800 triangles each.
 #pragma once
 
 #include <cstddef>
@@ -28,5 +29,22 @@ namespace bench {
 /// A plate of 1,200 triangles, and capsules along a path in it, each a fifth of its radius beyond
 /// the one before.
 [[nodiscard]] std::vector<trisect::PolygonMesh> plate_and_path(std::size_t n);
+
+/// A bumpy sphere, moved along x by a thirty-second of its radius each time: edges meet edges.
+[[nodiscard]] std::vector<trisect::PolygonMesh> copies_along_axis(std::size_t n);
+
+/// Prisms of 200 sides on one floor about one axis, wide and low to narrow and high.
+[[nodiscard]] std::vector<trisect::PolygonMesh> prisms_on_floor(std::size_t n);
+
+/// The same prism of 200 sides, each on top of the one before.
+[[nodiscard]] std::vector<trisect::PolygonMesh> stacked_prisms(std::size_t n);
+
+/// A plate of 1,200 triangles, and cylinders of 100 sides from its middle, flush with its upper
+/// side, apart from each other; `through`: to its lower side.
+[[nodiscard]] std::vector<trisect::PolygonMesh> plate_and_drills(std::size_t n, bool through);
+
+/// The same plate, and cylinders of 100 sides along x, each an eighth of its radius beyond the one
+/// before, from one depth to its upper side.
+[[nodiscard]] std::vector<trisect::PolygonMesh> plate_and_slot(std::size_t n);
 
 }  // namespace bench

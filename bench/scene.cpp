@@ -101,12 +101,18 @@ std::size_t count_of(const std::string& scene, const std::string& word, const ch
 
 /// All operands combined by each operation; a difference is the first one less all others.
 Scene dense_scene(const std::string& scene, const std::string& word) {
-    if (word.starts_with("path")) {
-        Scene s = one_union(plate_and_path(count_of(scene, word, "path")));
+    Scene s;
+    const auto less_tools = [&](std::vector<PolygonMesh> operands) {
+        s = one_union(std::move(operands));
         s.operations = {Operation::Difference};
         return s;
-    }
-    Scene s;
+    };
+    if (word.starts_with("path")) return less_tools(plate_and_path(count_of(scene, word, "path")));
+    if (word.starts_with("slot")) return less_tools(plate_and_slot(count_of(scene, word, "slot")));
+    if (word.starts_with("drills"))
+        return less_tools(plate_and_drills(count_of(scene, word, "drills"), false));
+    if (word.starts_with("bores"))
+        return less_tools(plate_and_drills(count_of(scene, word, "bores"), true));
     if (word.starts_with("dense")) {
         s = one_union(nearly_equal_solids(count_of(scene, word, "dense")));
     } else if (word.starts_with("onion")) {
@@ -115,6 +121,12 @@ Scene dense_scene(const std::string& scene, const std::string& word) {
         s = one_union(solids_in_one_place(count_of(scene, word, "swarm")));
     } else if (word.starts_with("cylinders")) {
         s = one_union(turned_cylinders(count_of(scene, word, "cylinders")));
+    } else if (word.starts_with("copies")) {
+        s = one_union(copies_along_axis(count_of(scene, word, "copies")));
+    } else if (word.starts_with("floor")) {
+        s = one_union(prisms_on_floor(count_of(scene, word, "floor")));
+    } else if (word.starts_with("stack")) {
+        s = one_union(stacked_prisms(count_of(scene, word, "stack")));
     } else {
         unknown(scene);
     }

@@ -91,6 +91,11 @@ struct Scene {
 ///     h:swarm16                     with centres at random in a third of their radius
 ///     h:cylinders16                 cylinders of 200 sides about one centre, turned at random
 ///     h:path200                     a plate less capsules that overlap along a path
+///     h:copies16                    a bumpy sphere of 800 triangles, moved along x each time
+///     h:floor16                     prisms of 200 sides on one floor about one axis
+///     h:stack16                     prisms of 200 sides, each on top of the one before
+///     h:drills64 h:bores64          a plate less cylinders, flush with its upper side, or with
+///     both h:slot64                      a plate less flush cylinders that overlap along a line
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
 [[nodiscard]] Scene make_scene(const std::string& name);

@@ -21,6 +21,7 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include <trisect/bsp/assembly/axis/axis_faces.h>
@@ -295,10 +296,14 @@ void Gatherer::mark_crossed(const Crossings& crossings) {
 
 // Vertices of others may lie inside their edges.
 void Gatherer::mark_special(const Crossings& crossings) {
+    std::size_t slot = crossings.operands.size();
+    auto marks = out_.sources.end();
     for (const std::uint32_t number : crossings.special) {
-        const Crossings::Operand& o = crossings.operands[crossings.operand_of(number)];
-        const auto marks = std::ranges::find(
-            out_.sources, o.serial, [](const FacetMarks& m) { return m.source()->serial(); });
+        const std::size_t next = crossings.operand_of(number);
+        const Crossings::Operand& o = crossings.operands[next];
+        if (std::exchange(slot, next) != next)
+            marks = std::ranges::find(out_.sources, o.serial,
+                                      [](const FacetMarks& m) { return m.source()->serial(); });
         const std::uint32_t facet = number - o.first;
         if (marks != out_.sources.end() && marks->is_present(facet, o.inside_above))
             marks->set_worked(facet, o.inside_above);

@@ -35,7 +35,11 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 class CommonPart::Steps {
 public:
     Steps(const ManyMeshes& meshes, const EvaluateSettings& options)
-        : meshes_(meshes), finder_(meshes, options), segments_(meshes) {}
+        : meshes_(meshes),
+          special_(meshes.facet_count()),
+          exact_(meshes, special_),
+          finder_(meshes, options, special_),
+          segments_(meshes, exact_) {}
 
     [[nodiscard]] bool run(const OutlinedSolid& first, const OutlinedSolid& second,
                            EvaluateStats& stats) {
@@ -54,12 +58,14 @@ public:
         return true;
     }
     [[nodiscard]] OutlinedSolid result() { return std::move(out_); }
+    [[nodiscard]] const SpecialPosition& special() const { return special_; }
 
 private:
     // Where an edge of a part pierces the other solid.
     struct Stop {
         std::uint32_t vertex = 0;  // of those that were made
         bool opens = false;        // what follows along the edge
+        std::uint32_t cutter = 0;
         double along = 0;
     };
     // A crossing on a part, with what is open on its left.
@@ -81,8 +87,12 @@ private:
         return meshes_.operands->operands[solids_[solid]->facets[place].slot].is_open_below();
     }
     [[nodiscard]] bool find_sides(std::size_t solid);
-    [[nodiscard]] bool sort_stops(const OutlinedSolid::Edge& edge, const OutlinedSolid& solid,
-                                  std::span<Stop> stops) const;
+    [[nodiscard]] bool sort_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
+                                  const OutlinedSolid& solid, std::span<Stop> stops) const;
+    [[nodiscard]] int order_of_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
+                                     const Stop& a, const Stop& b) const;
+    [[nodiscard]] std::optional<bool> side_of_part(std::size_t solid, DisjointSets& joined,
+                                                   std::uint32_t root);
     [[nodiscard]] bool mark_ends(std::size_t solid);
     [[nodiscard]] bool mark(std::size_t solid, std::uint32_t vertex, Side side);
     void join_vertices(std::size_t solid, DisjointSets& joined) const;
@@ -97,6 +107,8 @@ private:
     }
 
     const ManyMeshes& meshes_;
+    SpecialPosition special_;
+    ShiftedPoints exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
     CrossedFacetsFinder finder_;
     CommonSegments segments_;
@@ -148,7 +160,8 @@ void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
         ends[k] = vertex_at(end, places);
         const std::size_t owner = end.of_second ? 1 : 0;
         // Walking on along the edge one comes to the left of what ends there.
-        stops_[owner].add(end.edge, {ends[k], (k == 1) == along[owner], 0});
+        const std::uint32_t cutter = solids_[1 - owner]->facets[places[1 - owner]].number;
+        stops_[owner].add(end.edge, {ends[k], (k == 1) == along[owner], cutter, 0});
     }
     for (std::size_t i = 0; i < 2; ++i)
         cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], &line});
@@ -180,23 +193,41 @@ std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
     return static_cast<std::uint32_t>(number);
 }
 
-bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, const OutlinedSolid& solid,
-                                   std::span<Stop> stops) const {
+bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
+                                   const OutlinedSolid& solid, std::span<Stop> stops) const {
     if (stops.size() < 2) return true;
     const Approximation& a = solid.vertices[edge.from].at;
     const Approximation& b = solid.vertices[edge.to].at;
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
         if (std::fabs(b.c[k] - a.c[k]) > std::fabs(b.c[axis] - a.c[axis])) axis = k;
-    const double way = b.c[axis] > a.c[axis] ? 1 : -1;
+    const double length = b.c[axis] - a.c[axis];
+    const bool has_way = std::fabs(length) > bound_slack * (a.error + b.error);
+    const double way = length > 0 ? 1 : -1;
     for (Stop& s : stops) s.along = way * made_[s.vertex].at.c[axis];
-    std::ranges::sort(stops, {}, &Stop::along);
-    for (std::size_t i = 1; i < stops.size(); ++i)
-        if (!(stops[i].along - stops[i - 1].along >
-              bound_slack *
-                  (made_[stops[i].vertex].at.error + made_[stops[i - 1].vertex].at.error)))
-            return false;
-    return true;
+    bool known = true;
+    std::ranges::sort(stops, [&](const Stop& s, const Stop& t) {
+        const double error = bound_slack * (made_[s.vertex].at.error + made_[t.vertex].at.error);
+        if (has_way && std::fabs(t.along - s.along) > error) return s.along < t.along;
+        if (s.vertex == t.vertex) return false;
+        const int order = order_of_stops(edge, facet, s, t);
+        known = known && order != 0;
+        return order < 0;
+    });
+    return known;
+}
+
+// Exactly: -1 where the first one comes before the other one. An edge in a segment goes along its
+// line where that has what is open on its left (add_cut).
+int CommonPart::Steps::order_of_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
+                                      const Stop& a, const Stop& b) const {
+    if (edge.line == nullptr) return exact_.order_on_edge(facet, edge.own, a.cutter, b.cutter);
+    const std::array<std::uint32_t, 2>& line = edge.line->facets;
+    const std::size_t own = line[0] == facet ? 0 : 1;
+    const bool open_below =
+        meshes_.operands->operands[meshes_.slot_of(line[1 - own])].is_open_below();
+    const bool along = open_below == (own == 0);
+    return (along ? 1 : -1) * exact_.order_on_line(line, a.cutter, b.cutter);
 }
 
 bool CommonPart::Steps::mark(std::size_t solid, std::uint32_t vertex, Side side) {
@@ -209,10 +240,12 @@ bool CommonPart::Steps::mark(std::size_t solid, std::uint32_t vertex, Side side)
 // Of the edges that are pierced.
 bool CommonPart::Steps::mark_ends(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
+    std::uint32_t place = 0;
     for (std::uint32_t e = 0; e < s.edges.size(); ++e) {
+        while (e >= s.facets[place].first + s.facets[place].count) ++place;
         if (!stops_[solid].has(e)) continue;
         const std::span<Stop> stops = stops_[solid].of(e);
-        if (!sort_stops(s.edges[e], s, stops)) return false;
+        if (!sort_stops(s.edges[e], s.facets[place].number, s, stops)) return false;
         for (std::size_t i = 1; i < stops.size(); ++i)
             if (stops[i].opens == stops[i - 1].opens) return false;
         if (!mark(solid, s.edges[e].from, stops.front().opens ? Side::Closed : Side::Open) ||
@@ -242,8 +275,7 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
     for (std::uint32_t v = 0; v < sides.size(); ++v) {
         const std::uint32_t root = joined.root(v);
         if (sides[root] == Side::Unknown) {
-            const auto open =
-                is_open_at(s.vertices[root].at, *solids_[1 - solid], segments_, 1 - solid);
+            const auto open = side_of_part(solid, joined, root);
             if (!open) return false;
             sides[root] = *open ? Side::Open : Side::Closed;
         }
@@ -251,6 +283,18 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
         if (sides[v] != sides[root]) return false;
     }
     return true;
+}
+
+// Of vertices that hang together and that nothing separates from the other solid.
+std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, DisjointSets& joined,
+                                                    std::uint32_t root) {
+    const OutlinedSolid& s = *solids_[solid];
+    const OutlinedSolid& other = *solids_[1 - solid];
+    if (const auto open = is_open_at(s.vertices[root].at, other, segments_, 1 - solid)) return open;
+    for (std::uint32_t v = root; v < s.vertices.size(); ++v)
+        if (s.vertices[v].kind == OutlineVertex::Kind::Corner && joined.root(v) == root)
+            return is_open_at_corner(s.vertices[v], other, exact_);
+    return std::nullopt;
 }
 
 void CommonPart::Steps::reserve() {
@@ -337,6 +381,8 @@ CommonPart::CommonPart(const ManyMeshes& meshes, const EvaluateSettings& options
     : steps_(std::make_unique<Steps>(meshes, options)) {}
 
 CommonPart::~CommonPart() = default;
+
+const SpecialPosition& CommonPart::special() const { return steps_->special(); }
 
 std::optional<OutlinedSolid> CommonPart::of(OutlinedSolid first, OutlinedSolid second,
                                             EvaluateStats& stats) {

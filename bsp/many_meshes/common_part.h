@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/special_position.h>
 
 namespace trisect::detail {
 
@@ -19,10 +20,12 @@ public:
     CommonPart(const CommonPart&) = delete;
     CommonPart& operator=(const CommonPart&) = delete;
 
-    /// What both leave open. Nothing when they are not in general position, or doubles cannot
-    /// decide. O(n log n) where facets meet few others.
+    /// What both leave open. Nothing where sides are not known. O(n log n) where facets meet few
+    /// others.
     [[nodiscard]] std::optional<OutlinedSolid> of(OutlinedSolid first, OutlinedSolid second,
                                                   EvaluateStats& stats);
+    /// Of all so far.
+    [[nodiscard]] const SpecialPosition& special() const;
 
 private:
     class Steps;

@@ -8,7 +8,8 @@
 // ends of that segment, which are nearly as good as corners, and not from those of the edge. So
 // errors do not grow from step to step.
 //
-// All that doubles decide here are sides of vertices, and orders of points along a line.
+// All that doubles decide here are sides of vertices, and orders of points along a line. What they
+// leave open is decided by integers, as if operands were moved by less than any number.
 
 #include <trisect/bsp/many_meshes/common_segments.h>
 
@@ -49,7 +50,19 @@ bool CommonSegments::find(const std::array<std::uint32_t, 2>& places,
     for (std::size_t i = 0; i < 2; ++i)
         if (!facets[i]->whole && !list_passages(i, *facets[i], plane(1 - i, places[1 - i])))
             return false;
-    return sort_inside() && walk(facets);
+    if (!sort_inside() || !walk(facets)) return false;
+    note_short_segments();
+    return true;
+}
+
+// Of parts; whole facets in special position have been noted as a pair.
+void CommonSegments::note_short_segments() const {
+    for (const CommonSegment& s : segments_) {
+        const Approximation& a = s.ends[0].at;
+        const Approximation& b = s.ends[1].at;
+        if (!(std::fabs(b.c[axis_] - a.c[axis_]) > bound_slack * (a.error + b.error)))
+            exact_.note_short(*crossing_);
+    }
 }
 
 // Along which axis the crossing is longest.
@@ -62,6 +75,20 @@ void CommonSegments::set_way() {
         longest = step;
     }
     way_ = longest > 0 ? 1 : -1;
+    const double error = crossing_->ends[0].at.error + crossing_->ends[1].at.error;
+    if (std::fabs(longest) > bound_slack * error) return;
+    const auto [axis, sign] = exact_.direction(crossing_->facets[0], crossing_->facets[1]);
+    axis_ = axis;
+    way_ = sign;
+}
+
+// Of the plane of the facet of the other solid.
+int CommonSegments::side(std::size_t solid, std::uint32_t vertex,
+                         const FilteredPlane& plane) const {
+    const OutlineVertex& v = solids_[solid]->vertices[vertex];
+    const int side = plane.sign(v.at);
+    return side != 0 ? side
+                     : exact_.side(v, crossing_->facets[solid], crossing_->facets[1 - solid]);
 }
 
 // To the left of the crossing is what lies below the second facet for the first one, and above the
@@ -72,15 +99,16 @@ bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet
     const OutlinedSolid& s = *solids_[solid];
     for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
         const OutlinedSolid::Edge& edge = s.edges[e];
-        const int from = other.sign(s.vertices[edge.from].at);
-        const int to = other.sign(s.vertices[edge.to].at);
+        const int from = side(solid, edge.from, other);
+        const int to = side(solid, edge.to, other);
         if (from == 0 || to == 0) return false;
         if (from == to) continue;
         Passage p;
         p.of_second = solid == 1;
         p.enters = (to > 0) == (solid == 0);
         p.edge = e;
-        if (!(edge.line == nullptr ? place_own(p, edge.own) : place_on_line(p, *edge.line, other)))
+        if (!(edge.line == nullptr ? place_own(p, edge.own)
+                                   : place_on_line(p, facet, *edge.line, other)))
             return false;
         (p.where == Passage::Where::Inside ? inside_ : passages_).push_back(p);
     }
@@ -100,35 +128,52 @@ bool CommonSegments::place_own(Passage& p, std::int8_t own) const {
 }
 
 // An end at an edge of the facet itself is beyond all that its cutters cut.
-bool CommonSegments::place_on_line(Passage& p, const FacetCrossing& line,
-                                   const FilteredPlane& other) const {
-    const Approximation& u = line.ends[0].at;
-    const Approximation& w = line.ends[1].at;
-    const double at_u = other.value(u.c);
-    const double at_w = other.value(w.c);
-    if ((at_u > 0) == (at_w > 0) ||
-        !interpolate(u, at_u, w, at_w, other.error(u) + other.error(w), p.at))
+bool CommonSegments::place_on_line(Passage& p, const OutlinedSolid::Facet& facet,
+                                   const FacetCrossing& line, const FilteredPlane& other) const {
+    p.cutter = line.facets[line.facets[0] == facet.number ? 1 : 0];
+    if (!set_place(p, {facet.number, p.cutter, crossing_->facets[p.of_second ? 0 : 1]}, line,
+                   other))
         return false;
     p.along = way_ * p.at.c[axis_];
     p.where = Passage::Where::Inside;
     for (std::size_t k = 0; k < 2; ++k) {
         const FacetCrossing::End& end = crossing_->ends[k];
         if (end.of_second == p.of_second) continue;
-        const double gap = p.along - way_ * end.at.c[axis_];
-        if (!(std::fabs(gap) > bound_slack * (p.at.error + end.at.error))) return false;
+        double gap = p.along - way_ * end.at.c[axis_];
+        if (!(std::fabs(gap) > bound_slack * (p.at.error + end.at.error)))
+            gap = exact_.order_to_end(*crossing_, k, p.cutter);
+        if (gap == 0) return false;
         if (k == 0 && gap < 0) p.where = Passage::Where::Before;
         if (k == 1 && gap > 0) p.where = Passage::Where::Behind;
     }
     return true;
 }
 
-bool CommonSegments::sort_inside() {
-    std::ranges::sort(inside_, {}, &Passage::along);
-    for (std::size_t i = 1; i < inside_.size(); ++i)
-        if (!(inside_[i].along - inside_[i - 1].along >
-              bound_slack * (inside_[i].at.error + inside_[i - 1].at.error)))
-            return false;
+// From the ends of the segment, where these are clearly on different sides.
+bool CommonSegments::set_place(Passage& p, const std::array<std::uint32_t, 3>& facets,
+                               const FacetCrossing& line, const FilteredPlane& other) const {
+    const Approximation& u = line.ends[0].at;
+    const Approximation& w = line.ends[1].at;
+    const double at_u = other.value(u.c);
+    const double at_w = other.value(w.c);
+    const double error = other.error(u) + other.error(w);
+    if ((at_u > 0) != (at_w > 0) && interpolate(u, at_u, w, at_w, error, p.at)) return true;
+    if (other.sign(u) * other.sign(w) > 0) return false;
+    p.at = exact_.meeting(facets);
     return true;
+}
+
+bool CommonSegments::sort_inside() {
+    bool known = true;
+    std::ranges::sort(inside_, [&](const Passage& a, const Passage& b) {
+        if (std::fabs(b.along - a.along) > bound_slack * (a.at.error + b.at.error))
+            return a.along < b.along;
+        if (a.edge == b.edge && a.of_second == b.of_second) return false;
+        const int order = exact_.order_on_line(crossing_->facets, a.cutter, b.cutter);
+        known = known && order != 0;
+        return order < 0;
+    });
+    return known;
 }
 
 // Whether a part has what follows the crossing's first end.

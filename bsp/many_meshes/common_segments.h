@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/shifted_points.h>
 
 namespace trisect::detail {
 
@@ -27,11 +28,13 @@ struct CommonSegment {
 /// Facets of two solids, with their planes, one crossing after the other; keeps its memory.
 class CommonSegments {
 public:
-    explicit CommonSegments(const ManyMeshes& meshes) : meshes_(meshes) {}
+    /// `exact` answers what doubles do not decide.
+    CommonSegments(const ManyMeshes& meshes, const ShiftedPoints& exact)
+        : meshes_(meshes), exact_(exact) {}
 
     /// The solids of all that follows.
     void start(const OutlinedSolid& first, const OutlinedSolid& second);
-    /// False when doubles cannot decide. \pre the facets at these places cross so
+    /// False where that fails. \pre the facets at these places cross so
     [[nodiscard]] bool find(const std::array<std::uint32_t, 2>& places,
                             const FacetCrossing& crossing);
     /// In their order along the crossing.
@@ -48,15 +51,21 @@ private:
         bool of_second = false;
         bool enters = false;  ///< the part lies behind it
         std::uint32_t edge = 0;
+        std::uint32_t cutter = 0;  ///< of what lies inside
         double along = 0;
         Approximation at;
     };
     void set_way();
+    [[nodiscard]] int side(std::size_t solid, std::uint32_t vertex,
+                           const FilteredPlane& plane) const;
+    void note_short_segments() const;
     [[nodiscard]] bool list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
                                      const FilteredPlane& other);
     [[nodiscard]] bool place_own(Passage& p, std::int8_t own) const;
-    [[nodiscard]] bool place_on_line(Passage& p, const FacetCrossing& line,
-                                     const FilteredPlane& other) const;
+    [[nodiscard]] bool place_on_line(Passage& p, const OutlinedSolid::Facet& facet,
+                                     const FacetCrossing& line, const FilteredPlane& other) const;
+    [[nodiscard]] bool set_place(Passage& p, const std::array<std::uint32_t, 3>& facets,
+                                 const FacetCrossing& line, const FilteredPlane& other) const;
     [[nodiscard]] bool begin_inside(std::size_t solid, const OutlinedSolid::Facet& facet,
                                     bool& inside) const;
     [[nodiscard]] bool sort_inside();
@@ -65,6 +74,7 @@ private:
                                        const OutlinedSolid::Facet& owner) const;
 
     const ManyMeshes& meshes_;
+    const ShiftedPoints& exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
     std::array<std::vector<FilteredPlane>, 2> planes_;  // by place, where they were asked for
     std::vector<CommonSegment> segments_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Both lists are divided by planes across the axes, down to few pairs, and compared there in
-// doubles. Facets that are long beside a cell are listed with the box of what lies in it, and not
-// where that is nothing.
+// doubles, what these leave open by integers. Facets that are long beside a cell are listed with
+// the box of what lies in it, and not where that is nothing.
 
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 
@@ -219,8 +219,9 @@ bool CrossedFacetsFinder::compare(const Cell& cell) {
     stats_->listed_polygons += all.size();
     if (!facets_.list({trisect::detail::Cell{}, near, operands, nullptr, &options_})) return false;
     draw_in_boxes(cell);
-    if (!pairs_.relate_all_by_planes(facets_, *stats_)) return false;
+    pairs_.relate_all_by_planes_but(doubtful_, facets_, *stats_);
     keep_crossings(cell);
+    decide(cell);
     return true;
 }
 
@@ -238,34 +239,55 @@ void CrossedFacetsFinder::draw_in_boxes(const Cell& cell) {
         }
 }
 
-// A pair may be listed in several cells, but not where one of them is within this one. Of two parts
-// the whole facets may cross somewhere else.
 void CrossedFacetsFinder::keep_crossings(const Cell& cell) {
     const std::size_t n = cell.items[0].size();
     for (const FilteredCrossing& c : pairs_.crossings()) {
-        const std::array places{cell.items[0][as_index(c.items[0])].place,
-                                cell.items[1][as_index(c.items[1]) - n].place};
         std::array<FacetCrossing::End, 2> ends;
-        OutlineBox box = OutlineBox::none();
         for (std::size_t k = 0; k < 2; ++k) {
             const FilteredEnd& end = c.ends[k];
             ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
-            box.add(ends[k].at);
         }
-        bool is_once = false;
-        bool is_apart = false;
-        for (std::size_t i = 0; i < 2; ++i) {
-            const OutlineBox& part = solids_[i]->boxes[places[i]];
-            is_once = is_once || lies_within(part, cell.bounds);
-            is_apart = is_apart || (!solids_[i]->facets[places[i]].whole && !part.meets(box));
-        }
-        if (is_apart || (!is_once && !known_.insert({places[0], places[1]}, 0).second)) continue;
-        CrossedFacets& made = found_.emplace_back();
-        made.places = places;
-        made.crossing.ends = ends;
-        for (std::size_t k = 0; k < 2; ++k)
-            made.crossing.facets[k] = solids_[k]->facets[places[k]].number;
+        keep(cell,
+             {cell.items[0][as_index(c.items[0])].place,
+              cell.items[1][as_index(c.items[1]) - n].place},
+             ends);
     }
+}
+
+void CrossedFacetsFinder::decide(const Cell& cell) {
+    const std::size_t n = cell.items[0].size();
+    for (const auto& [first, second] : doubtful_) {
+        ++stats_->doubtful_pairs;
+        const std::array places{cell.items[0][as_index(first)].place,
+                                cell.items[1][as_index(second) - n].place};
+        const auto crossing = special_.crossing(solids_[0]->facets[places[0]].number,
+                                                solids_[1]->facets[places[1]].number);
+        if (!crossing) continue;
+        ++stats_->pairs_touching;
+        ++stats_->pairs_cutting;
+        keep(cell, places, crossing->ends);
+    }
+}
+
+// A pair may be listed in several cells, but not where one of them is within this one. Of two parts
+// the whole facets may cross somewhere else.
+void CrossedFacetsFinder::keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
+                               const std::array<FacetCrossing::End, 2>& ends) {
+    OutlineBox box = OutlineBox::none();
+    for (const FacetCrossing::End& end : ends) box.add(end.at);
+    bool is_once = false;
+    bool is_apart = false;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const OutlineBox& part = solids_[i]->boxes[places[i]];
+        is_once = is_once || lies_within(part, cell.bounds);
+        is_apart = is_apart || (!solids_[i]->facets[places[i]].whole && !part.meets(box));
+    }
+    if (is_apart || (!is_once && !known_.insert({places[0], places[1]}, 0).second)) return;
+    CrossedFacets& made = found_.emplace_back();
+    made.places = places;
+    made.crossing.ends = ends;
+    for (std::size_t k = 0; k < 2; ++k)
+        made.crossing.facets[k] = solids_[k]->facets[places[k]].number;
 }
 
 }  // namespace trisect::detail

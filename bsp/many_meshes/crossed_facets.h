@@ -13,6 +13,7 @@
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/special_pairs.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -27,10 +28,11 @@ struct CrossedFacets {
 /// Finds such pairs among those whose parts have boxes that meet; keeps its memory.
 class CrossedFacetsFinder {
 public:
-    CrossedFacetsFinder(const ManyMeshes& meshes, const EvaluateSettings& options)
-        : meshes_(meshes), options_(options) {}
+    CrossedFacetsFinder(const ManyMeshes& meshes, const EvaluateSettings& options,
+                        SpecialPosition& special)
+        : meshes_(meshes), options_(options), special_(meshes, special) {}
 
-    /// False when doubles cannot decide a pair. Counts.
+    /// False when a cell cannot be listed in doubles. Counts.
     [[nodiscard]] bool find(const OutlinedSolid& first, const OutlinedSolid& second,
                             EvaluateStats& stats);
     /// Each pair once.
@@ -60,15 +62,20 @@ private:
     [[nodiscard]] bool compare(const Cell& cell);
     void draw_in_boxes(const Cell& cell);
     void keep_crossings(const Cell& cell);
+    void decide(const Cell& cell);
+    void keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
+              const std::array<FacetCrossing::End, 2>& ends);
 
     const ManyMeshes& meshes_;
     const EvaluateSettings& options_;
+    SpecialPairs special_;
     std::array<const OutlinedSolid*, 2> solids_{};
     std::vector<CrossedFacets> found_;
     FlatMap known_;  // those that were found, where there are several cells
     EvaluateStats* stats_ = nullptr;
     FilteredFacets facets_;
     FilteredPairs pairs_;
+    FilteredPairs::Doubtful doubtful_;
     std::vector<PolygonRef> polygons_;
 };
 

@@ -7,6 +7,11 @@
 //
 // Intermediate results are parts of whole facets by name (outlined_solid.h), so nothing gets less
 // exact on the way, and no polygon is cut.
+//
+// Where meshes touch, operands are moved by less than any number (operand_shifts.h), which puts all
+// in general position. Assembly moves them back: parts without an area are left out then. Facets
+// that cover a part of a plane would leave a sheet of no thickness if they were moved the wrong
+// way; then all is done once more with other moves.
 
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 
@@ -93,6 +98,12 @@ public:
         return common.of(*std::move(below), *std::move(above), stats);
     }
 
+    // Of all so far; in no order.
+    template <class Each>
+    void for_each_special(const Each& each) const {
+        common_.for_each([&](const CommonPart& c) { each(c.special()); });
+    }
+
 private:
     [[nodiscard]] std::size_t facets_of(std::uint32_t first, std::uint32_t end) const {
         std::size_t n = 0;
@@ -105,6 +116,81 @@ private:
     bool parallel_;
     mutable PerThread<CommonPart> common_;
 };
+
+std::vector<OperandShifts::Growth> growths_of(const ManyMeshes& meshes) {
+    std::vector<OperandShifts::Growth> out;
+    for (std::size_t i = 0; i < meshes.sources.size(); ++i) {
+        const Box& b = meshes.sources[i]->box();
+        const auto middle = [&](std::size_t k) { return b.lo[k] + (b.hi[k] - b.lo[k]) / 2; };
+        // What is left open gets smaller.
+        out.push_back(
+            {static_cast<std::int8_t>(meshes.operands->operands[i].is_open_below() ? -1 : 1),
+             {middle(0), middle(1), middle(2)}});
+    }
+    return out;
+}
+
+// What all operands leave open together, and the facets in special position.
+struct CommonOfAll {
+    OutlinedSolid solid;
+    std::vector<std::uint32_t> special;  // ascending
+};
+
+// Facets in special position get vertices of others into their edges; then those that share an edge
+// with them need the same.
+void add_sharing(CommonOfAll& common, std::size_t facet_count) {
+    if (common.special.empty()) return;
+    std::vector<std::uint8_t> is_special(facet_count);
+    for (const std::uint32_t f : common.special) is_special[f] = 1;
+    common.special.clear();
+    for (std::uint32_t f = 0; f < facet_count; ++f)
+        if (is_special[f] != 0) common.special.push_back(f);
+    for (const OutlinedSolid::Facet& f : common.solid.facets) {
+        if (is_special[f.number] != 0) continue;
+        const auto edges = common.solid.edges_of(f);
+        if (std::ranges::any_of(edges, [&](const OutlinedSolid::Edge& e) {
+                return e.line != nullptr &&
+                       (is_special[e.line->facets[0]] != 0 || is_special[e.line->facets[1]] != 0);
+            }))
+            common.special.push_back(f.number);
+    }
+    std::ranges::sort(common.special);
+}
+
+// Nothing where it cannot be found.
+std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& solids,
+                                         const EvaluateSettings& options, std::uint32_t threads,
+                                         EvaluateStats& stats) {
+    std::vector<OperandShifts::Growth> growths = growths_of(meshes);
+    std::optional<OperandShifts> shifts(growths);
+    std::vector<OperandShifts::Wanted> wanted;
+    constexpr int most_turns = 4;
+    for (int turn = 0; turn < most_turns && shifts; ++turn) {
+        meshes.shifts = &*shifts;
+        const BalancedTree tree(meshes, solids, options, threads != 1);
+        EvaluateStats made;
+        auto solid = tree.of(0, static_cast<std::uint32_t>(solids.size()), made);
+        if (!solid) return std::nullopt;
+        CommonOfAll out{*std::move(solid), {}};
+        bool as_wanted = true;
+        tree.for_each_special([&](const SpecialPosition& s) {
+            out.special.insert(out.special.end(), s.facets().begin(), s.facets().end());
+            for (const OperandShifts::Wanted& w : s.wanted()) {
+                as_wanted = as_wanted && shifts->satisfies(w);
+                wanted.push_back(w);
+            }
+        });
+        if (as_wanted) {
+            add_sharing(out, meshes.facet_count());
+            stats = made;
+            return out;
+        }
+        std::ranges::sort(wanted);
+        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+        shifts = OperandShifts::satisfying(growths, wanted);
+    }
+    return std::nullopt;
+}
 
 // By what assembly needs.
 UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes, Crossings operands,
@@ -162,17 +248,18 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
     Box all;
     for (const auto& s : solids) {
         meshes.sources.push_back(&source_of(*s));
+        meshes.are_whole = meshes.are_whole && source_of(*s).is_whole();
         all.add(source_of(*s).box());
     }
     for (std::size_t k = 0; k < 3; ++k)
         meshes.extent[k] = static_cast<double>(all.hi[k] - all.lo[k] + 2);
     EvaluateStats made;
-    const auto end = static_cast<std::uint32_t>(solids.size());
     auto result = on_threads(options.threads, [&](std::uint32_t threads) {
-        return BalancedTree(meshes, solids, options, threads != 1).of(0, end, made);
+        return common_of_all(meshes, solids, options, threads, made);
     });
     if (!result) return std::nullopt;
-    UndividedMeshes form = form_of(*result, meshes, *std::move(operands), std::move(tree));
+    operands->special = std::move(result->special);
+    UndividedMeshes form = form_of(result->solid, meshes, *std::move(operands), std::move(tree));
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();
     stats = made;
     return form;

@@ -20,8 +20,9 @@ namespace trisect::detail {
 [[nodiscard]] bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                    const EvaluateSettings& options);
 
-/// The value of such a formula, with that tree. Nothing where meshes are not in general position.
-/// What it returns does not depend on the number of threads. \pre may_be_many_meshes()
+/// The value of such a formula, with that tree. Nothing where no infinitesimal moves of the meshes
+/// are found that leave nothing of no thickness, or sides are not known. What it returns does not
+/// depend on the number of threads. \pre may_be_many_meshes()
 [[nodiscard]] std::optional<SolidForm> evaluate_many_without_tree(
     const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
     EvaluateStats& stats, std::shared_ptr<const LazyTree> tree);

@@ -15,6 +15,7 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/many_meshes/operand_shifts.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -25,7 +26,22 @@ struct ManyMeshes {
     const Crossings* operands = nullptr;  ///< without pairs
     std::vector<const Source*> sources;   ///< by slot
     Vector3 extent{};                     ///< of all together
+    bool are_whole = true;                ///< all coordinates
+    const OperandShifts* shifts = nullptr;
 
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const {
+        return static_cast<std::uint32_t>(operands->operand_of(number));
+    }
+    [[nodiscard]] std::size_t facet_count() const {
+        return operands->operands.back().first + sources.back()->facet_count();
+    }
+    /// Of a facet by its number.
+    [[nodiscard]] std::array<const LatticePoint*, 3> lattice_corners(std::uint32_t number) const {
+        const std::uint32_t slot = slot_of(number);
+        const Source& s = *sources[slot];
+        const std::uint32_t facet = number - operands->operands[slot].first;
+        return {&s.corner(facet, 0), &s.corner(facet, 1), &s.corner(facet, 2)};
+    }
     [[nodiscard]] std::array<Vector3, 3> corners(std::uint32_t slot, std::uint32_t facet) const {
         const Source& s = *sources[slot];
         return {s.corner(facet, 0).doubles(), s.corner(facet, 1).doubles(),

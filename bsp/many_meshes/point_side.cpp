@@ -95,6 +95,64 @@ std::optional<bool> passes_odd(const AxisRay& ray, const OutlinedSolid& solid,
 
 }  // namespace
 
+namespace {
+
+// A ray along the third axis from a corner, by signs alone.
+class ExactRay {
+public:
+    ExactRay(const OutlineVertex& from, const OutlinedSolid& solid, const ShiftedPoints& exact)
+        : from_(from), solid_(solid), exact_(exact) {}
+
+    [[nodiscard]] bool may_meet(const OutlineBox& b) const {
+        const auto& c = from_.at.c;
+        return b.lo[0] <= c[0] && c[0] <= b.hi[0] && b.lo[1] <= c[1] && c[1] <= b.hi[1] &&
+               c[2] <= b.hi[2];
+    }
+    [[nodiscard]] bool meets(const OutlinedSolid::Facet& facet) const {
+        const int slope = exact_.slope(facet.number, 2);
+        if (slope == 0) return false;
+        bool odd = false;
+        for (const OutlinedSolid::Edge& e : solid_.edges_of(facet))
+            odd = odd != passes(e, facet.number);
+        return odd && exact_.side_of_corner(from_, facet.number) != slope;
+    }
+
+private:
+    // Whether the edge, seen along the ray, goes by on the far side along the first axis.
+    [[nodiscard]] bool passes(const OutlinedSolid::Edge& e, std::uint32_t facet) const {
+        const int from = order(e.from, 1);
+        if (from == order(e.to, 1)) return false;
+        const int near = order_in_doubles(e.from, 0);
+        if (near != 0 && near == order_in_doubles(e.to, 0)) return near > 0;
+        return exact_.order_at_height(facet, e, from_, {0, 1}) > 0;
+    }
+    [[nodiscard]] int order_in_doubles(std::uint32_t vertex, std::size_t axis) const {
+        const Approximation& at = solid_.vertices[vertex].at;
+        return certain_sign(at.c[axis] - from_.at.c[axis],
+                            bound_slack * (at.error + from_.at.error));
+    }
+    [[nodiscard]] int order(std::uint32_t vertex, std::size_t axis) const {
+        const int known = order_in_doubles(vertex, axis);
+        return known != 0 ? known : exact_.order_along(solid_.vertices[vertex], from_, axis);
+    }
+
+    const OutlineVertex& from_;
+    const OutlinedSolid& solid_;
+    const ShiftedPoints& exact_;
+};
+
+}  // namespace
+
+bool is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid,
+                       const ShiftedPoints& exact) {
+    const ExactRay ray(corner, solid, exact);
+    bool odd = false;
+    if (ray.may_meet(solid.box))
+        for (std::uint32_t f = 0; f < solid.facets.size(); ++f)
+            if (ray.may_meet(solid.boxes[f])) odd = odd != ray.meets(solid.facets[f]);
+    return solid.open_far_out != odd;
+}
+
 std::optional<bool> is_open_at(const Approximation& point, const OutlinedSolid& solid,
                                CommonSegments& planes, std::size_t number) {
     for (std::size_t i = 0; i < 6; ++i) {

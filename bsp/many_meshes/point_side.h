@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/many_meshes/common_segments.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/shifted_points.h>
 
 namespace trisect::detail {
 
@@ -15,5 +16,9 @@ namespace trisect::detail {
 /// with that number. O(n)
 [[nodiscard]] std::optional<bool> is_open_at(const Approximation& point, const OutlinedSolid& solid,
                                              CommonSegments& planes, std::size_t number);
+
+/// The same of a corner of another operand, exactly, as if operands were moved. O(n)
+[[nodiscard]] bool is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid,
+                                     const ShiftedPoints& exact);
 
 }  // namespace trisect::detail

@@ -16,8 +16,13 @@
 // and first steps are also evaluated without being divided, where they allow it, and must give the
 // mesh that cells give.
 //
-//     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]
-//                         [--fractions 1] [--only-pair I] [--only-formula I] [--only-chain I]
+// One of many is a union, an intersection, or one less all others, of three to eight operands or
+// their complements, of which some are copies moved along the axes. It is evaluated pair by pair
+// without a tree by one, two and four threads, in special position as well.
+//
+//     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--many L]
+//                         [--threads T] [--fractions 1] [--only-pair I] [--only-formula I]
+//                         [--only-chain I] [--only-many I]
 //
 // With --fractions 1 each operand is put on a lattice whose unit is 2^0, 2^2, 2^4, 2^8, 2^24, 2^56
 // or 2^70, so that its coordinates have so many bits behind the point: the same sets, on all kinds
@@ -67,11 +72,13 @@ struct Options {
     std::uint64_t pairs = 300;
     std::uint64_t formulas = 30;
     std::uint64_t chains = 0;
+    std::uint64_t many = 0;
     std::uint64_t threads = 1;
     bool fractions = false;
     std::optional<std::uint64_t> only_pair;
     std::optional<std::uint64_t> only_formula;
     std::optional<std::uint64_t> only_chain;
+    std::optional<std::uint64_t> only_many;
 };
 
 /// Shared by the processes.
@@ -80,6 +87,9 @@ struct Counters {
     std::atomic<std::uint64_t> formulas;
     std::atomic<std::uint64_t> operations;  // of all formulas
     std::atomic<std::uint64_t> chains;
+    std::atomic<std::uint64_t> many;
+    std::atomic<std::uint64_t> pairwise;            // of them
+    std::atomic<std::uint64_t> doubtful;            // pairs of facets in those
     std::atomic<std::uint64_t> mixed_leaves;        // of all chains
     std::atomic<std::uint64_t> filtered_leaves;     // of them
     std::atomic<std::uint64_t> filtered_fragments;  // in those
@@ -384,21 +394,85 @@ void run_chain(const Options& options, std::uint64_t index, Counters& counters) 
     std::fflush(stdout);
 }
 
-/// Cases are the pairs, then the formulas, then the chains.
+/// Three to eight operands, on one lattice.
+std::vector<reference::Operand> many_operands(reference::Random& random) {
+    const std::size_t n = 3 + random.below(6);
+    if (!random.chance(1, 3)) return reference::random_family(random, n, true);
+    std::vector<reference::Operand> out;
+    const std::size_t axis = random.below(3);
+    while (out.size() < n) {
+        if (out.empty() || random.chance(1, 4)) {
+            out.push_back(reference::random_embedded_solid(random));
+            continue;
+        }
+        reference::LatticePoint by{0, 0, 0};
+        by[axis] = random.between(-3, 3);
+        if (random.chance(1, 4)) by[(axis + 1) % 3] = random.between(-2, 2);
+        out.push_back(reference::translated(out[random.below(out.size())], by));
+    }
+    return out;
+}
+
+reference::Expression flat_formula(reference::Random& random, std::size_t n) {
+    using reference::Expression;
+    const std::uint64_t kind = random.below(3);
+    std::vector<Expression> terms;
+    for (std::size_t i = 0; i < n; ++i) {
+        Expression leaf = Expression::leaf(i);
+        const bool negated = kind == 2 ? i != 0 : random.chance(1, 6);
+        terms.push_back(negated ? Expression::node(Kind::Complement, {leaf}) : leaf);
+    }
+    return Expression::node(kind == 0 ? Kind::Union : Kind::Intersection, terms);
+}
+
+void run_many(const Options& options, std::uint64_t index, Counters& counters) {
+    reference::Random random = generator(options.seed, 3, index);
+    const int bits = fraction_bits(options, random);
+    const std::vector<reference::Operand> operands = many_operands(random);
+    const auto expression = flat_formula(random, operands.size());
+    std::string why;
+    try {
+        std::vector<trisect::Solid> solids;
+        for (const auto& o : operands)
+            solids.push_back(engines::solid(o, trisect::Embedding::Assume, bits));
+        const auto wanted =
+            reference::canonical_boundary(reference::evaluate(operands, expression).cells);
+        std::uint64_t doubtful = 0;
+        const auto difference = engines::pairwise_difference(engines::formula(expression, solids),
+                                                             {}, wanted, doubtful);
+        counters.pairwise += difference ? 1U : 0U;
+        counters.doubtful += doubtful;
+        why = difference.value_or("");
+    } catch (const std::exception& e) {
+        why = std::string("exception: ") + e.what();
+    }
+    ++counters.many;
+    if (why.empty()) return;
+    ++counters.disagreements;
+    std::printf("DISAGREEMENT %s, %s: %s\n", case_name(options, "--only-many", index).c_str(),
+                reference::to_string(expression).c_str(), why.c_str());
+    std::fflush(stdout);
+}
+
+/// Cases are the pairs, then the formulas, then the chains, then those of many.
 void run_case(const Options& options, std::uint64_t index, Counters& counters) {
     if (index < options.pairs)
         run_pair(options, index, counters);
     else if (index < options.pairs + options.formulas)
         run_formula(options, index - options.pairs, counters);
-    else
+    else if (index < options.pairs + options.formulas + options.chains)
         run_chain(options, index - options.pairs - options.formulas, counters);
+    else
+        run_many(options, index - options.pairs - options.formulas - options.chains, counters);
 }
 
 std::string name_of_case(const Options& options, std::uint64_t index) {
     if (index < options.pairs) return case_name(options, "--only-pair", index);
     index -= options.pairs;
     if (index < options.formulas) return case_name(options, "--only-formula", index);
-    return case_name(options, "--only-chain", index - options.formulas);
+    index -= options.formulas;
+    if (index < options.chains) return case_name(options, "--only-chain", index);
+    return case_name(options, "--only-many", index - options.chains);
 }
 
 /// The cases next_case, next_case + threads, ...
@@ -406,7 +480,7 @@ pid_t start_worker(const Options& options, Progress& progress, Counters& counter
     std::fflush(stdout);
     const pid_t child = fork();
     if (child != 0) return child;
-    const std::uint64_t cases = options.pairs + options.formulas + options.chains;
+    const std::uint64_t cases = options.pairs + options.formulas + options.chains + options.many;
     while (progress.next_case < cases) {
         run_case(options, progress.next_case, counters);
         progress.next_case += options.threads;
@@ -454,6 +528,9 @@ void print(const Counters& c) {
     row("of those, in doubles", c.filtered_leaves);
     row("fragments of earlier steps in those", c.filtered_fragments);
     row("meshes of pairs and first steps that were not divided", c.undivided);
+    row("formulas of many", c.many);
+    row("of those, done pair by pair without a tree", c.pairwise);
+    row("pairs of facets in special position in those", c.doubtful);
     row("results of the cell tree compared with the naive engine", c.results);
     row("the same, formulas step by step", c.stepwise);
     row("results of the classic BSP tree compared with the naive engine", c.classic);
@@ -482,6 +559,10 @@ std::optional<Options> parse(int argc, char** argv) {
             out.formulas = value;
         else if (name == "--chains")
             out.chains = value;
+        else if (name == "--many")
+            out.many = value;
+        else if (name == "--only-many")
+            out.only_many = value;
         else if (name == "--threads")
             out.threads = value;
         else if (name == "--fractions")
@@ -505,8 +586,9 @@ int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
         std::fprintf(stderr,
-                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--chains K] [--threads T]\n"
-                     "       [--fractions 1] [--only-pair I] [--only-formula I] [--only-chain I]\n",
+                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--chains K] [--many L]\n"
+                     "       [--threads T] [--fractions 1] [--only-pair I] [--only-formula I]\n"
+                     "       [--only-chain I] [--only-many I]\n",
                      argv[0]);
         return 2;
     }
@@ -518,6 +600,8 @@ int main(int argc, char** argv) {
         run_formula(*options, *options->only_formula, counters);
     else if (options->only_chain)
         run_chain(*options, *options->only_chain, counters);
+    else if (options->only_many)
+        run_many(*options, *options->only_many, counters);
     else
         run_all(*options, counters);
     print(counters);

@@ -17,6 +17,7 @@
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
@@ -276,6 +277,41 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     meshes.crossings = crossings;
     if (!are_equal(mesh_of(uncertain), expected)) return "another mesh out of a tree";
     if (!state->lazy_tree()->is_cut()) return "no tree was made";
+    return std::string();
+}
+
+std::optional<std::string> pairwise_difference(const trisect::Expression& expression,
+                                               const trisect::EvaluateOptions& options,
+                                               const reference::CanonicalBoundary& expected,
+                                               std::uint64_t& doubtful) {
+    using namespace trisect::detail;
+    const Translation t = translate(expression);
+    std::vector<std::shared_ptr<const SolidState>> states;
+    for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
+    const auto same_lattice = [&](const auto& s) { return s->lattice == states[0]->lattice; };
+    if (!std::ranges::all_of(states, same_lattice)) return std::nullopt;
+    std::optional<trisect::PolygonMesh> first;
+    for (const std::uint32_t threads : {1U, 2U, 4U}) {
+        trisect::EvaluateOptions with = options;
+        with.threads = threads;
+        EvaluateStats stats;
+        const auto state =
+            evaluate_by({&may_be_many_meshes, &evaluate_many_without_tree}, t.formula, states,
+                        EvaluateSettings{with, usual_splitting_offset}, stats);
+        if (state == nullptr && threads == 1) return std::nullopt;
+        if (state == nullptr) return "not by " + std::to_string(threads) + " threads";
+        const auto mesh = mesh_of(*state);
+        if (threads == 1) {
+            doubtful = stats.doubtful_pairs;
+            first = mesh;
+            std::string why = difference(assemble_brep(*state, {}), expected);
+            if (why.empty() && mesh) why = open_edge(*mesh);
+            if (why.empty() && state->lazy_tree()->is_cut()) why = "a tree was made";
+            if (!why.empty()) return why;
+        }
+        if (!are_equal(mesh, first))
+            return "another mesh by " + std::to_string(threads) + " threads";
+    }
     return std::string();
 }
 

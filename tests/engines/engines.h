@@ -3,6 +3,7 @@
 // The library's results in the form in which the reference engine compares boundaries.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,5 +55,13 @@ std::string open_edge(const trisect::PolygonMesh& mesh);
 /// they are divided. Meshes of any size are tried, pieces as well.
 [[nodiscard]] std::optional<std::string> undivided_difference(
     const trisect::Expression& expression, const trisect::EvaluateOptions& options);
+
+/// What is wrong where a formula over many meshes is evaluated pair by pair, without a tree
+/// (many_meshes_without_tree.h), wherever they lie and by one, two or four threads: another
+/// boundary than expected, an open edge, other bytes. Empty when nothing is; nothing where it is
+/// not evaluated so. `doubtful`: the pairs that doubles left open.
+[[nodiscard]] std::optional<std::string> pairwise_difference(
+    const trisect::Expression& expression, const trisect::EvaluateOptions& options,
+    const reference::CanonicalBoundary& expected, std::uint64_t& doubtful);
 
 }  // namespace engines

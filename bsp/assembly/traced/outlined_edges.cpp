@@ -30,7 +30,8 @@ public:
         const PlaneId own = first_edge_of(facet.number);
         BoundaryFacet& f = parts_.facets[as_index(worked)];
         f.support = parts_.bench.support_of(own);
-        f.parts = 1;
+        f.is_special = std::ranges::binary_search(operands_.special, facet.number);
+        f.parts = f.is_special ? 2 : 1;
         for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
             const OutlinedFacets::Edge& edge = outlined_.edges[e];
             PointId from = point(edge.from);
@@ -40,6 +41,33 @@ public:
         }
         if (o.inside_above) std::reverse(out.end() - facet.count, out.end());
         marks.set_traced(facet.number - o.first);
+        ++parts_.stats.traced_facets;
+    }
+
+    // A facet in special position of which all is in the result.
+    void add_whole(std::uint32_t number, std::vector<BoundaryEdge>& out) {
+        const std::size_t slot = operands_.operand_of(number);
+        const Crossings::Operand& o = operands_.operands[slot];
+        const std::size_t table = parts_.table_of(sources_[slot]);
+        if (table >= parts_.sources.size()) return;  // nothing is left of it
+        FacetMarks& marks = parts_.sources[table];
+        const std::uint32_t facet = number - o.first;
+        if (!marks.takes_part(facet, o.inside_above)) return;
+        const std::int32_t worked = marks.number_of_worked(facet, o.inside_above);
+        const PlaneId own = first_edge_of(number);
+        BoundaryFacet& f = parts_.facets[as_index(worked)];
+        f.support = parts_.bench.support_of(own);
+        f.is_special = true;
+        f.parts = 2;
+        const PolygonRef r = ref(number);
+        for (int k = 0; k < 3; ++k) {
+            const int i = o.inside_above ? 2 - k : k;
+            PointId from = parts_.bench.corner(r.source, r.facet, i);
+            PointId to = parts_.bench.corner(r.source, r.facet, (i + 1) % 3);
+            if (o.inside_above) std::swap(from, to);
+            out.push_back({from, to, worked, {own + i, false}});
+        }
+        marks.set_traced(facet);
         ++parts_.stats.traced_facets;
     }
 
@@ -109,6 +137,13 @@ void add_outlined(const OutlinedFacets& outlined, const Crossings& operands,
     for (const OutlinedFacets::Facet& f : outlined.facets) {
         while (slot + 1 < sources.size() && operands.operands[slot + 1].first <= f.number) ++slot;
         all.add(f, slot, edges);
+    }
+    auto outlined_facet = outlined.facets.begin();
+    for (const std::uint32_t number : operands.special) {
+        while (outlined_facet != outlined.facets.end() && outlined_facet->number < number)
+            ++outlined_facet;
+        if (outlined_facet == outlined.facets.end() || outlined_facet->number != number)
+            all.add_whole(number, edges);
     }
 }
 

@@ -122,28 +122,36 @@ template <class N>
 class Derivatives {
 public:
     explicit Derivatives(const InfinitesimalShift& shift)
-        : shift_(shift), centre_(lengths<N>(shift.centre)) {}
+        : shift_(shift),
+          growths_{{{shift.growth, lengths<N>(shift.centre)},
+                    {shift.next_growth, lengths<N>(shift.next_centre)}}} {}
 
     // Of the value that a facet's plane has at points of the mesh that is moved, in the plane. That
     // of a moved plane at points in it is the negative of this.
     [[nodiscard]] int of_value(const Facet<N>& facet) const {
-        if (shift_.growth != 0)
-            if (const int sign = facet.value(centre_).sign(); sign != 0)
-                return -shift_.growth * sign;
+        for (const Growth& g : growths_) {
+            if (g.sign == 0) break;
+            if (const int sign = facet.value(g.centre).sign(); sign != 0) return -g.sign * sign;
+        }
         return shift_.along(signs_of(facet.normal));
     }
     // Of the product of a vector and a point that is moved.
     [[nodiscard]] int of_product(const Normal<N>& n, const Lengths<N>& point) const {
-        if (shift_.growth != 0)
-            if (const int sign = dot<N>(n, minus(point, centre_)).sign(); sign != 0)
-                return shift_.growth * sign;
+        for (const Growth& g : growths_) {
+            if (g.sign == 0) break;
+            const int sign = dot<N>(n, minus(point, g.centre)).sign();
+            if (sign != 0) return g.sign * sign;
+        }
         return shift_.along(signs_of(n));
     }
-    [[nodiscard]] const Lengths<N>& centre() const { return centre_; }
 
 private:
+    struct Growth {
+        int sign = 0;
+        Lengths<N> centre;
+    };
     const InfinitesimalShift& shift_;
-    Lengths<N> centre_;
+    std::array<Growth, 2> growths_;
 };
 
 // The corners of a facet and the plane of another one; `derivative` is the sign of what the shift
@@ -425,7 +433,8 @@ std::optional<int> passage(const LatticePoint& from, const LatticePoint& to, boo
 }
 
 bool is_whole(const InfinitesimalShift& shift) {
-    return shift.growth == 0 || shift.centre.is_whole();
+    return (shift.growth == 0 || shift.centre.is_whole()) &&
+           (shift.next_growth == 0 || shift.next_centre.is_whole());
 }
 
 }  // namespace

@@ -190,7 +190,8 @@ bool FilteredPairs::sweep(FilteredFacets& facets, std::span<const std::uint8_t> 
                 if (has_planes_) {
                     pairs_.push_back(
                         {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
-                } else if (!add_pair(facets, candidates_[i].item, candidates_[j].item)) {
+                } else if (!add_pair(facets, candidates_[i].item, candidates_[j].item) &&
+                           !is_left_open(candidates_[i].item, candidates_[j].item)) {
                     return false;
                 }
             }
@@ -213,7 +214,8 @@ bool FilteredPairs::add_pairs(FilteredFacets& facets) {
             const LeafIndex s = candidates_[four[i][0]].item;
             const LeafIndex t = candidates_[four[i][1]].item;
             const bool crosses = (relation.crosses >> i & 1U) != 0;
-            if (!(crosses ? add_crossing(facets, s, t, relation, i) : add_pair(facets, s, t)))
+            if (!(crosses ? add_crossing(facets, s, t, relation, i) : add_pair(facets, s, t)) &&
+                !is_left_open(s, t))
                 return false;
         }
     }
@@ -254,8 +256,13 @@ bool FilteredPairs::compare(FilteredFacets& facets, LeafIndex s, LeafIndex t,
     has_partner_[as_index(s)] = has_partner_[as_index(t)] = 1;
     if (add_pair(facets, s, t)) [[likely]]
         return true;
+    return is_left_open(s, t);
+}
+
+// Whether a pair that doubles do not decide may be one.
+bool FilteredPairs::is_left_open(LeafIndex s, LeafIndex t) {
     if (doubtful_ == nullptr) return false;
-    doubtful_->push_back({s, t});
+    doubtful_->push_back({std::min(s, t), std::max(s, t)});
     return true;
 }
 

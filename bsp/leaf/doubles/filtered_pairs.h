@@ -73,13 +73,13 @@ public:
         static_cast<void>(relate(facets, {}, true, stats));
         doubtful_ = nullptr;
     }
-    /// relate_all(), with `edges_apart`: of two operands, too, planes in single precision part most
-    /// pairs first. For boundaries that lie close to each other.
-    [[nodiscard]] bool relate_all_by_planes(FilteredFacets& facets, EvaluateStats& stats) {
+    /// The same, but planes in single precision part most pairs first. For boundaries that lie
+    /// close to each other.
+    void relate_all_by_planes_but(Doubtful& doubtful, FilteredFacets& facets,
+                                  EvaluateStats& stats) {
         by_planes_ = true;
-        const bool related = relate(facets, {}, true, stats);
+        relate_all_but(doubtful, facets, stats);
         by_planes_ = false;
-        return related;
     }
     /// relate_all(), with `edges_apart`, for pairs with at least one marked facet.
     [[nodiscard]] bool relate_marked(FilteredFacets& facets, std::span<const std::uint8_t> marks,
@@ -138,6 +138,7 @@ private:
     [[nodiscard]] bool compare(FilteredFacets& facets, LeafIndex s, LeafIndex t,
                                EvaluateStats& stats);
     [[nodiscard]] bool add_pair(FilteredFacets& facets, LeafIndex s, LeafIndex t);
+    [[nodiscard]] bool is_left_open(LeafIndex s, LeafIndex t);
     [[nodiscard]] bool add_pairs(FilteredFacets& facets);
     [[nodiscard]] bool add_crossing(const FilteredFacets& facets, LeafIndex s, LeafIndex t,
                                     const FacetRows::Relation& relation, unsigned i);

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wanted of two operands is decided by the first of their moves that says something: the
+// larger growth, the smaller growth, the moves along the axes. An operand that grows outwards all
+// over does all that can be wanted of it; where a facet of an operand faces its centre, the other
+// operand has to grow more. Where that goes in a circle nothing grows, and the order along each
+// axis has to be right. Orders are found by taking out what nothing has to be before.
+
+#include <trisect/bsp/many_meshes/operand_shifts.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <utility>
+
+namespace trisect::detail {
+
+OperandShifts::OperandShifts(std::vector<Growth> growths) : growths_(std::move(growths)) {
+    for (Ranks& r : ranks_) {
+        r.resize(growths_.size());
+        std::iota(r.begin(), r.end(), 0U);
+    }
+}
+
+// The lowest slot first of those that may come next.
+std::optional<OperandShifts::Ranks> OperandShifts::ordered(std::size_t slots,
+                                                           std::span<const Before> all) {
+    std::vector<std::vector<std::uint32_t>> behind(slots);
+    std::vector<std::uint32_t> ahead(slots, 0);
+    for (const Before& b : all) {
+        behind[b.slot].push_back(b.other);
+        ++ahead[b.other];
+    }
+    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> next;
+    for (std::uint32_t s = 0; s < slots; ++s)
+        if (ahead[s] == 0) next.push(s);
+    Ranks ranks(slots);
+    std::uint32_t count = 0;
+    for (; !next.empty(); ++count) {
+        const std::uint32_t s = next.top();
+        next.pop();
+        ranks[s] = count;
+        for (const std::uint32_t o : behind[s])
+            if (--ahead[o] == 0) next.push(o);
+    }
+    if (count != slots) return std::nullopt;
+    return ranks;
+}
+
+// Of two that do not agree the one that does what is wanted comes first.
+bool OperandShifts::order_growths(std::span<const Wanted> wanted) {
+    std::vector<Before> all;
+    for (const Wanted& w : wanted) {
+        if (std::max(w.growth[0], w.growth[1]) <= 0) continue;
+        if (w.growth[0] < 0) all.push_back({w.below, w.above});
+        if (w.growth[1] < 0) all.push_back({w.above, w.below});
+    }
+    auto ranks = ordered(growths_.size(), all);
+    if (ranks) ranks_[3] = *std::move(ranks);
+    return ranks.has_value();
+}
+
+bool OperandShifts::order_moves(std::span<const Wanted> wanted) {
+    std::array<std::uint8_t, 3> axes{0, 1, 2};
+    do {
+        std::array<std::vector<Before>, 3> all;
+        for (const Wanted& w : wanted) {
+            if (along_growth(w) != 0) continue;
+            std::size_t axis = axes[0];
+            for (std::size_t k = 1; k < 3 && w.direction[axis] == 0; ++k) axis = axes[k];
+            all[axis].push_back(w.direction[axis] > 0 ? Before{w.above, w.below}
+                                                      : Before{w.below, w.above});
+        }
+        std::array<std::optional<Ranks>, 3> ranks;
+        for (std::size_t k = 0; k < 3; ++k) ranks[k] = ordered(growths_.size(), all[k]);
+        if (!ranks[0] || !ranks[1] || !ranks[2]) continue;
+        axes_ = axes;
+        for (std::size_t k = 0; k < 3; ++k) ranks_[k] = *std::move(ranks[k]);
+        return true;
+    } while (std::ranges::next_permutation(axes).found);
+    return false;
+}
+
+std::optional<OperandShifts> OperandShifts::satisfying(std::vector<Growth> growths,
+                                                       std::span<const Wanted> wanted) {
+    OperandShifts all(std::move(growths));
+    const auto are_satisfied = [&] {
+        return std::ranges::all_of(wanted, [&](const Wanted& w) { return all.satisfies(w); });
+    };
+    if (all.order_growths(wanted) && all.order_moves(wanted) && are_satisfied()) return all;
+    all.do_grow_ = false;
+    if (all.order_moves(wanted) && are_satisfied()) return all;
+    return std::nullopt;
+}
+
+int OperandShifts::along_growth(const Wanted& w) const {
+    if (!do_grow_) return 0;
+    const std::size_t first = growth_rank(w.above) < growth_rank(w.below) ? 0 : 1;
+    return w.growth[first] != 0 ? w.growth[first] : w.growth[1 - first];
+}
+
+int OperandShifts::along_moves(const Wanted& w) const {
+    for (const std::uint8_t k : axes_) {
+        if (w.direction[k] == 0) continue;
+        return rank(k, w.above) < rank(k, w.below) ? w.direction[k] : -w.direction[k];
+    }
+    return 0;
+}
+
+bool OperandShifts::satisfies(const Wanted& wanted) const {
+    const int grown = along_growth(wanted);
+    return (grown != 0 ? grown : along_moves(wanted)) > 0;
+}
+
+// That the first one grows is as if the second one shrank about the same centre, but for the scale
+// of all.
+InfinitesimalShift OperandShifts::of_pair(std::uint32_t first, std::uint32_t second) const {
+    InfinitesimalShift out;
+    out.axes = axes_;
+    for (std::size_t k = 0; k < 3; ++k)
+        out.signs[k] =
+            static_cast<std::int8_t>(rank(axes_[k], second) < rank(axes_[k], first) ? 1 : -1);
+    if (!do_grow_) return out;
+    const Growth& one = growths_[first];
+    const Growth& other = growths_[second];
+    out.growth = static_cast<std::int8_t>(-one.sign);
+    out.centre = one.centre;
+    out.next_growth = other.sign;
+    out.next_centre = other.centre;
+    if (growth_rank(first) > growth_rank(second)) {
+        std::swap(out.growth, out.next_growth);
+        std::swap(out.centre, out.next_centre);
+    }
+    return out;
+}
+
+}  // namespace trisect::detail
