@@ -639,10 +639,11 @@ std::vector<FacetName> all_incomplete(std::vector<FacetName> made, const SolidSt
 }
 
 CellRef solve_root(Shared& shared, const Residual::Ref& formula,
-                   std::span<const std::shared_ptr<const SolidState>> states) {
+                   std::span<const std::shared_ptr<const SolidState>> states, const Cell* cell) {
     Worker& worker = shared.worker();
     const auto mark = worker.arena().mark();
-    CellTask task = root_task(formula, states, worker.arena());
+    CellTask task = cell != nullptr ? task_in_cell(formula, states, *cell, worker.arena())
+                                    : root_task(formula, states, worker.arena());
     CellRef root = worker.solve(task);
     worker.arena().release(mark);
     return root;
@@ -651,8 +652,9 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
 }  // namespace
 
 Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& solids,
-                            const EvaluateSettings& options) {
-    std::optional<Crossings> crossings = crossings_of(*formula, solids);
+                            const EvaluateSettings& options, const Cell* cell) {
+    std::optional<Crossings> crossings;
+    if (cell == nullptr) crossings = crossings_of(*formula, solids);
     Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false,
                   crossings ? &*crossings : nullptr};
     std::uint64_t polygons = 0;
@@ -664,12 +666,12 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
     if (shared.parallel) {
         try {
             in_arena(options.threads,
-                     [&] { result.tree.root = solve_root(shared, formula, solids); });
+                     [&] { result.tree.root = solve_root(shared, formula, solids, cell); });
         } catch (const Abandoned&) {
             shared.failure.rethrow();
         }
     } else {
-        result.tree.root = solve_root(shared, formula, solids);
+        result.tree.root = solve_root(shared, formula, solids, cell);
     }
     if (crossings) {
         ContainedCells covered;

@@ -68,18 +68,22 @@ std::optional<int> winding_of_root(const SolidState& solid, const FinePoint& p) 
     return winding_in_tree(n, solid.root().complemented, Cell{}, p);
 }
 
+void place_operand(const SolidState& solid, std::size_t slot, int winding, CellTask& task) {
+    CellOperand o;
+    o.slot = static_cast<std::int32_t>(slot);
+    o.winding = winding;
+    o.embedded = solid.embedded;
+    o.has_fractions = !solid.whole;
+    o.complemented = solid.root().complemented;
+    o.node = unfolded(solid.root().node.get());
+    ::new (&task.operands[slot]) CellOperand(o);
+}
+
 bool place_root(std::span<const std::shared_ptr<const SolidState>> solids, CellTask& task) {
     for (std::size_t i = 0; i < solids.size(); ++i) {
         const auto w = winding_of_root(*solids[i], task.reference);
         if (!w) return false;
-        CellOperand o;
-        o.slot = static_cast<std::int32_t>(i);
-        o.winding = *w;
-        o.embedded = solids[i]->embedded;
-        o.has_fractions = !solids[i]->whole;
-        o.complemented = solids[i]->root().complemented;
-        o.node = unfolded(solids[i]->root().node.get());
-        ::new (&task.operands[i]) CellOperand(o);
+        place_operand(*solids[i], i, *w, task);
     }
     return true;
 }
@@ -100,6 +104,22 @@ CellTask root_task(const Residual::Ref& formula,
         placed = place_root(solids, task);
     }
     TRISECT_EXPECTS(placed, "no reference point for the operands");
+    return task;
+}
+
+CellTask task_in_cell(const Residual::Ref& formula,
+                      std::span<const std::shared_ptr<const SolidState>> solids, const Cell& cell,
+                      StackArena& arena) {
+    CellTask task;
+    task.cell = cell;
+    task.formula = formula;
+    task.reference = solids[0]->root().node->reference();
+    task.operands = {arena.take<CellOperand>(solids.size()), solids.size()};
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        const CellRef& root = solids[i]->root();
+        place_operand(*solids[i], i, complemented_winding(root.node->winding(), root.complemented),
+                      task);
+    }
     return task;
 }
 

@@ -19,5 +19,9 @@ namespace trisect::detail {
 [[nodiscard]] CellTask root_task(const Residual::Ref& formula,
                                  std::span<const std::shared_ptr<const SolidState>> solids,
                                  StackArena& arena);
+/// The same for one cell. \pre the solids' roots are leaves of it with one reference point in it
+[[nodiscard]] CellTask task_in_cell(const Residual::Ref& formula,
+                                    std::span<const std::shared_ptr<const SolidState>> solids,
+                                    const Cell& cell, StackArena& arena);
 
 }  // namespace trisect::detail
