@@ -21,6 +21,7 @@
 #include <trisect/kernel/error.h>
 
 #include "rank_clash_command.h"
+#include "rank_slab_command.h"
 #include "ranks.h"
 #include "trisect/command_line.h"
 
@@ -77,9 +78,12 @@ int main(int argc, char** argv) {
     const trisect::app::RankClashCommand& command = *clash;
     trisect::app::SubCommands commands;
     commands.push_back(std::move(clash));
+    auto slabs = std::make_unique<trisect::app::RankSlabCommand>();
+    const trisect::app::RankSlabCommand& booleans = *slabs;
+    commands.push_back(std::move(slabs));
     const int code =
         trisect::app::run(static_cast<int>(arguments.size()), pointers.data(), commands);
-    if (command.is_open()) {
+    if (command.is_open() || booleans.is_open()) {
         // The others cannot end by themselves. The first may still be writing what was found.
         if (!is_first) std::this_thread::sleep_for(std::chrono::seconds(2));
         MPI_Abort(MPI_COMM_WORLD, code);

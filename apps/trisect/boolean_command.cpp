@@ -22,6 +22,7 @@
 #include "operand_model.h"
 #include "output_name.h"
 #include "parallel_each.h"
+#include "slab_command.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -204,6 +205,7 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
         "--repair", options.repair,
         "move what rounding lets intersect until the result is certified; exit code 1 "
         "if that fails");
+    add_slab_options(*command, options);
     add_operand_options(*command, options.operands);
     return command;
 }
@@ -218,6 +220,7 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
 }
 
 Outcome run_boolean(Session& session, const BooleanOptions& options) {
+    if (wants_slabs(session, options)) return run_in_slabs(session, options);
     const bool is_native = has_native_name(options.output);
     const MeshFormat format = is_native ? MeshFormat::Off : output_format(session, options.output);
     if (is_native) require_mesh_output(options);

@@ -59,7 +59,10 @@ struct BooleanOptions {
     bool faces = false;    ///< assemble faces, although triangles are written
     bool source_faces = false;
     bool certificate = true;
-    bool repair = false;  ///< what is written must be certified
+    bool repair = false;      ///< what is written must be certified
+    std::uint64_t slabs = 0;  ///< of space, one after the other; 0: as memory asks for
+    std::string pieces;       ///< a folder for native files of slabs; empty: none
+    bool resume = false;      ///< an interrupted run in slabs
 };
 
 struct InfoOptions {

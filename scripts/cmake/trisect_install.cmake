@@ -68,6 +68,9 @@ configure_file(
 install(FILES ${PROJECT_BINARY_DIR}/trisect.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 if(TARGET trisect_cli)
     install(TARGETS trisect_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    if(TARGET trisect_mpi)
+        install(TARGETS trisect_mpi RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
     set(manual ${PROJECT_BINARY_DIR}/manual)
     set(TRISECT_ZSH_DIR ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
         CACHE STRING "Where completion for zsh is installed, below the prefix"

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// InputFile and OutputStream: files larger than memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace trisect::app {
+
+/// A file that is read at any place; every failure names it.
+class InputFile {
+public:
+    /// \throw InputError
+    explicit InputFile(std::string name);
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile();
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::uint64_t size() const { return size_; }
+    /// All bytes of a part. \throw InputError where there are fewer
+    void read(std::uint64_t offset, std::span<char> bytes) const;
+    /// The whole file as memory that nothing is written to.
+    [[nodiscard]] const char* mapped() const;
+
+private:
+    std::string name_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+    mutable void* mapping_ = nullptr;
+};
+
+/// A file that is written from its beginning, in large pieces.
+class OutputStream {
+public:
+    /// Under a temporary name in the same folder. \throw Error (Input)
+    explicit OutputStream(std::string name);
+    OutputStream(const OutputStream&) = delete;
+    OutputStream& operator=(const OutputStream&) = delete;
+    /// Takes back what was not finished.
+    ~OutputStream();
+
+    void write(const void* bytes, std::size_t count);
+    template <class T>
+    void write(const T& value) {
+        write(&value, sizeof value);
+    }
+    /// Flushes it to the disk and gives it its name.
+    void finish();
+
+private:
+    void flush();
+    [[noreturn]] void fail() const;
+
+    std::string name_;
+    std::string temporary_;
+    int descriptor_ = -1;
+    std::string buffer_;
+};
+
+}  // namespace trisect::app

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slab_plan.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include <sys/stat.h>
+
+#include <fmt/format.h>
+
+#include <trisect/kernel/error.h>
+
+#include "piece_join.h"
+#include "piecewise_file.h"
+
+namespace trisect::app {
+
+namespace {
+
+// What a process has without anything to do, and what a triangle of a slab takes while it is
+// evaluated: 360 bytes were measured, and 500 where the embedding is checked
+// (bench/results/slabs.md).
+constexpr std::uint64_t base_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t triangle_bytes = 600;
+constexpr std::uint64_t usual_memory = std::uint64_t{1} << 30;
+// Of a boolean that is not done in slabs.
+constexpr std::uint64_t whole_bytes = 400;
+
+std::uint64_t most_triangles(const SlabOptions& options) {
+    const std::uint64_t memory = options.memory == 0 ? usual_memory : options.memory;
+    if (memory < base_bytes + base_bytes / 2)
+        throw LimitError(
+            fmt::format("slabs of space need at least {} MiB of memory", 3 * base_bytes >> 21));
+    return (memory - base_bytes) / triangle_bytes;
+}
+
+}  // namespace
+
+bool needs_slabs(const SlabOptions& options) {
+    if (options.memory == 0 || !can_join_into(options.output)) return false;
+    if (!is_slab_operation(options.operation)) return false;
+    std::uint64_t triangles = 0;
+    for (const std::string& name : options.inputs) {
+        if (!TriangleStream::can_open(name)) return false;
+        triangles += TriangleStream::open(name)->size();
+    }
+    return triangles > options.memory / whole_bytes;
+}
+
+bool is_slab_operation(const std::string& operation) {
+    return operation == "union" || operation == "intersection" || operation == "difference";
+}
+
+std::string job_of(const SlabOptions& options) {
+    std::string out = fmt::format("{} {}", options.operation, static_cast<int>(options.embedding));
+    for (const std::string& name : options.inputs) {
+        struct stat facts {};
+        if (::stat(name.c_str(), &facts) != 0)
+            throw Error(ErrorCode::Input, name + ": no such file");
+        out += fmt::format(" | {} {} {}", name, facts.st_size, facts.st_mtime);
+    }
+    return out;
+}
+
+SlabPlan make_plan(const SlabOptions& options) {
+    std::vector<Survey> surveys;
+    SlabPlan plan;
+    for (const std::string& name : options.inputs) {
+        surveys.push_back(survey_of(*TriangleStream::open(name), name));
+        if (surveys.back().volume < 0)
+            throw Error(ErrorCode::InvalidSolid,
+                        name + ": the boundary is inside out: its volume is negative");
+        plan.triangles.push_back(surveys.back().triangles);
+    }
+    plan.slabs = Slabs::of(surveys, most_triangles(options), options.slabs);
+    return plan;
+}
+
+void write_plan(const std::string& name, const SlabPlan& plan, const std::string& job) {
+    std::string text = job + "\n";
+    const Slabs& s = plan.slabs;
+    text += fmt::format("{} {:a} {:a}\n", s.axis(), s.quantum(), s.bound());
+    for (const std::uint64_t n : plan.triangles) text += fmt::format("{} ", n);
+    text += "\n";
+    for (std::size_t i = 0; i < s.count(); ++i)
+        text += fmt::format("{} {:a}\n", s.load(i), s.high(i));
+    OutputStream out(name);
+    out.write(text.data(), text.size());
+    out.finish();
+}
+
+std::optional<SlabPlan> read_plan(const std::string& name, const std::string& job) {
+    std::ifstream file(name);
+    std::string line;
+    if (!std::getline(file, line) || line != job) return std::nullopt;
+    const auto next_double = [](std::istream& in) {
+        std::string word;
+        in >> word;
+        return std::strtod(word.c_str(), nullptr);
+    };
+    SlabPlan plan;
+    std::size_t axis = 0;
+    file >> axis;
+    const double quantum = next_double(file);
+    const double bound = next_double(file);
+    std::getline(file, line);
+    std::getline(file, line);
+    std::istringstream counts(line);
+    for (std::uint64_t n = 0; counts >> n;) plan.triangles.push_back(n);
+    std::vector<double> walls;
+    std::vector<std::uint64_t> loads;
+    for (std::uint64_t load = 0; file >> load;) {
+        loads.push_back(load);
+        walls.push_back(next_double(file));
+    }
+    if (walls.empty() || axis > 2) return std::nullopt;
+    walls.pop_back();
+    plan.slabs = Slabs(axis, std::move(walls), std::move(loads), quantum, bound);
+    return plan;
+}
+
+}  // namespace trisect::app

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// SlabRun: a boolean of operands larger than memory, slab by slab.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <trisect/bsp/expression.h>
+
+#include "slab_plan.h"
+
+namespace trisect::app {
+
+/// The steps of one job, for one process or many that see one folder.
+///
+///   1. plan() once: one pass over the operands decides the walls.
+///   2. distribute() every share: a second pass writes the triangles near each slab.
+///   3. evaluate() every slab, in any order: it becomes a piece.
+///   4. join() once: one mesh of all pieces.
+///
+/// Pieces depend on the plan alone, whoever makes them, and the mesh on the pieces.
+class SlabRun {
+public:
+    explicit SlabRun(SlabOptions options);
+
+    /// Takes over the plan of a run that was interrupted, if wanted.
+    void plan();
+    /// The plan that another process made.
+    void take_plan();
+    [[nodiscard]] const SlabPlan& current_plan() const { return plan_; }
+    [[nodiscard]] std::size_t count() const { return plan_.slabs.count(); }
+    /// Slabs by their load, the largest first.
+    [[nodiscard]] std::vector<std::size_t> order() const;
+
+    /// Whether triangles were distributed already, in how many shares.
+    [[nodiscard]] std::size_t distributed() const;
+    /// False where a corner is on a wall: then move_walls() and begin again.
+    [[nodiscard]] bool distribute(std::size_t share, std::size_t shares);
+    void move_walls();
+    void note_distributed(std::size_t shares);
+
+    [[nodiscard]] bool is_done(std::size_t slab) const;
+    /// \throw Error of the operation; the slab is named
+    void evaluate(std::size_t slab, std::size_t shares, const EvaluateOptions& options);
+
+    struct Joined {
+        std::uint64_t points = 0;
+        std::uint64_t triangles = 0;
+        std::uint64_t wall_points = 0;  ///< on walls: of two pieces
+    };
+    /// Writes the output, complete or not at all. \throw Error (Internal) where the two sides of a
+    /// wall do not fit
+    Joined join() const;
+    /// Removes the folder, which only has files of this job.
+    void clean() const;
+
+private:
+    [[nodiscard]] std::string path(const char* kind, std::size_t slab) const;
+    [[nodiscard]] std::string scratch(std::size_t slab, std::size_t operand,
+                                      std::size_t share) const;
+    [[nodiscard]] Solid operand_in(std::size_t slab, std::size_t operand, std::size_t shares) const;
+    [[nodiscard]] Expression formula_of(const std::vector<Solid>& operands) const;
+
+    SlabOptions options_;
+    std::string job_;
+    SlabPlan plan_;
+};
+
+}  // namespace trisect::app

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""rank_slab_test.py TRISECT [TRISECT_MPI MPIRUN]
+
+Unites, intersects and subtracts two rings in slabs, with `trisect` and with `trisect-mpi` on 1, 2 and 4 ranks: all meshes
+are the same bytes. Broken inputs and a folder that cannot be written leave an error and nothing else. Without the last two
+arguments, or where MPI does not start, only the first part is done, and the test counts as skipped (77).
+"""
+import json
+import math
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TRISECT = sys.argv[1]
+TRISECT_MPI, MPIRUN = (sys.argv[2:4] + [None, None])[:2]
+ENVIRONMENT = {**os.environ, 'OMPI_MCA_rmaps_base_oversubscribe': '1', 'OMPI_MCA_hwloc_base_binding_policy': 'none',
+               'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'}
+
+
+def call(command):
+    return subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=300, check=False)
+
+
+def has_mpi():
+    if not TRISECT_MPI:
+        print('MPI is absent: trisect-mpi was not built')
+        return False
+    started = call([MPIRUN, '-n', '2', 'true'])
+    if started.returncode != 0:
+        print('MPI does not start here: ' + started.stderr)
+    return started.returncode == 0
+
+
+READY = has_mpi()
+
+
+def write_ring(path, around, across, turn, shift):
+    """A torus as binary STL."""
+    def point(i, j):
+        a, b = 2 * math.pi * (i % around) / around, 2 * math.pi * (j % across) / across
+        r = 10 + math.sin(5 * a) * math.cos(3 * b)
+        x, y, z = (40 + r * math.cos(b)) * math.cos(a), (40 + r * math.cos(b)) * math.sin(a), r * math.sin(b)
+        return (x * math.cos(turn) - z * math.sin(turn) + shift, y, x * math.sin(turn) + z * math.cos(turn))
+    with open(path, 'wb') as file:
+        file.write(bytes(80) + struct.pack('<I', 2 * around * across))
+        for i in range(around):
+            for j in range(across):
+                p, q, r, s = point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)
+                for t in ((p, q, r), (p, r, s)):
+                    file.write(struct.pack('<12fH', 0, 0, 0, *t[0], *t[1], *t[2], 0))
+
+
+class RankSlabs(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        self.a, self.b = str(self.folder / 'a.stl'), str(self.folder / 'b.stl')
+        write_ring(self.a, 60, 30, 0, 0)
+        write_ring(self.b, 50, 40, 0.7, 17.3)
+
+    def boolean(self, program, operation, name, *more, code=0):
+        out = self.folder / name
+        done = call([*program, operation, self.a, self.b, '-o', str(out), '-q', *more])
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertFalse((self.folder / (name + '.slabs')).exists())
+        return out
+
+    def ranks(self, count):
+        return [MPIRUN, '-q', '-n', str(count), TRISECT_MPI]
+
+    def test_command(self):
+        for operation in ('union', 'intersection', 'difference'):
+            slabs = self.boolean([TRISECT], operation, 'slabs.ply', '--slabs', '5')
+            whole = self.boolean([TRISECT], operation, 'whole.ply')
+            self.assertEqual(call([TRISECT, 'check', str(slabs)]).returncode, 0)
+            diff = json.loads(call([TRISECT, 'diff', str(slabs), str(whole), '--json']).stdout)
+            for side in ('only_first', 'only_second'):
+                self.assertLess(abs(diff[side]['volume']), 1e-9)
+
+    def test_memory_decides(self):
+        out = self.folder / 'o.ply'
+        done = call([TRISECT, 'union', self.a, self.b, '-o', str(out), '--json', '--max-memory', '2G'])
+        self.assertEqual(json.loads(done.stdout)['schema'], 'trisect.boolean/1', done.stderr)
+
+    def test_usage(self):
+        for words in (['--faces'], ['--exact'], ['--lattice', '-10']):
+            self.boolean([TRISECT], 'union', 'o.ply', '--slabs', '3', *words, code=2)
+        self.boolean([TRISECT], 'union', 'o.off', '--slabs', '3', code=2)
+        self.boolean([TRISECT], 'xor', 'o.ply', '--slabs', '3', code=2)
+
+    def test_broken_inputs_leave_nothing(self):
+        whole = pathlib.Path(self.b).read_bytes()
+        programs = [[TRISECT]] + ([self.ranks(2)] if READY else [])
+        for program in programs:
+            pathlib.Path(self.b).write_bytes(whole[:-30])
+            self.boolean(program, 'union', 'o.ply', '--slabs', '3', code=3)
+            # One triangle twice, another one not at all.
+            pathlib.Path(self.b).write_bytes(whole[:84] + whole[84:134] + whole[84:134] + whole[184:])
+            self.boolean(program, 'union', 'o.ply', '--slabs', '3', code=4)
+            self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ['a.stl', 'b.stl'])
+
+    @unittest.skipUnless(READY, 'needs MPI')
+    def test_ranks(self):
+        for operation in ('union', 'intersection', 'difference'):
+            expected = self.boolean([TRISECT], operation, 'slabs.ply', '--slabs', '6').read_bytes()
+            for count in (1, 2, 4):
+                found = self.boolean(self.ranks(count), operation, 'ranks.ply', '--slabs', '6').read_bytes()
+                self.assertEqual(found, expected)
+
+    @unittest.skipUnless(READY, 'needs MPI')
+    def test_killed_runs_go_on(self):
+        write_ring(self.a, 250, 120, 0, 0)
+        expected = self.boolean([TRISECT], 'union', 'slabs.ply', '--slabs', '12').read_bytes()
+        out = self.folder / 'ranks.ply'
+        for seconds in (0.3, 0.6, 0.9):
+            run = subprocess.Popen([*self.ranks(2), 'union', self.a, self.b, '-o', str(out), '-q', '--slabs', '12',
+                                    '--resume'], env=ENVIRONMENT, stderr=subprocess.DEVNULL)
+            time.sleep(seconds)
+            run.send_signal(signal.SIGKILL)
+            run.wait()
+            time.sleep(0.3)
+        found = self.boolean(self.ranks(2), 'union', 'ranks.ply', '--slabs', '12', '--resume').read_bytes()
+        self.assertEqual(found, expected)
+
+
+if __name__ == '__main__':
+    result = unittest.main(argv=sys.argv[:1], exit=False).result
+    sys.exit(1 if not result.wasSuccessful() else 0 if READY else 77)
