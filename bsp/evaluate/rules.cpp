@@ -157,6 +157,23 @@ bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solid
     return are_two_meshes(formula, solids, options);
 }
 
+// Where facets across the axes, or few of prisms, have planes in common, one leaf has them all.
+bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
+                            const EvaluateSettings& options) {
+    if (!are_many_meshes(formula, solids, options)) return false;
+    const auto ends_are = [&](auto test) {
+        return std::ranges::all_of(solids, [&](const auto& s) {
+            const PolygonList& polygons = s->root().node->polygons();
+            return test(polygons[0]) && test(polygons[polygons.size() - 1]);
+        });
+    };
+    if (ends_are([](const PolygonRef& r) { return is_axis_polygon(r); })) return false;
+    std::uint64_t all = 0;
+    for (const auto& s : solids) all += s->root().node->size();
+    return all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons ||
+           !ends_are([](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
+}
+
 // --- The table.
 
 template <auto Arranger>
@@ -188,11 +205,13 @@ constexpr std::array all_rules{
          "planes, none through a corner; no work limit",
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
-    Rule{"many meshes",
-         "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, without an index; "
-         "no limits",
-         "uncrossed facets, outlines", &Stats::filtered_leaves,
-         FormulaRule{&are_many_meshes, &evaluate_many_without_tree}},
+    Rule{
+        "many meshes",
+        "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, or the first one's "
+        "has half of all; none with an index, not all across the axes or a leaf of prisms; no "
+        "limits",
+        "uncrossed facets, outlines", &Stats::filtered_leaves,
+        FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",
          &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
     Rule{"share", "one operand is left, and it is embedded",

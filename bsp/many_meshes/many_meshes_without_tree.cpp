@@ -51,26 +51,38 @@ bool is_open_far_out(const SolidState& solid, const Crossings::Operand& operand)
 constexpr double crowded_depth = 2.5;
 constexpr double crowded_part = 0.3;
 
-bool are_crowded(const SolidStates& solids) {
+// The part of the common box that the first operand's has, where all others are tools in it.
+constexpr double large_first_part = 0.5;
+
+enum class Crowd : std::uint8_t { None, All, InFirst };
+
+Crowd crowd_of(const SolidStates& solids) {
     Box all;
     for (const auto& s : solids) all.add(source_of(*s).box());
-    double sum = 0;
-    for (const auto& s : solids) {
-        const Box& box = source_of(*s).box();
+    const auto part_of = [&](const SolidState& solid) {
+        const Box& box = source_of(solid).box();
         double part = 1;
         for (std::size_t k = 0; k < 3; ++k)
             part *= static_cast<double>(box.hi[k] - box.lo[k] + 1) /
                     static_cast<double>(all.hi[k] - all.lo[k] + 1);
-        sum += part;
-    }
-    return sum >= std::min(crowded_depth, crowded_part * static_cast<double>(solids.size()));
+        return part;
+    };
+    double sum = 0;
+    for (const auto& s : solids) sum += part_of(*s);
+    if (sum >= std::min(crowded_depth, crowded_part * static_cast<double>(solids.size())))
+        return Crowd::All;
+    return part_of(*solids[0]) >= large_first_part ? Crowd::InFirst : Crowd::None;
 }
 
 class BalancedTree {
 public:
     BalancedTree(const ManyMeshes& meshes, const SolidStates& solids,
                  const EvaluateSettings& options, bool parallel)
-        : meshes_(meshes), solids_(solids), options_(options), parallel_(parallel) {}
+        : meshes_(meshes),
+          solids_(solids),
+          options_(options),
+          parallel_(parallel),
+          first_is_last_(crowd_of(solids) == Crowd::InFirst) {}
 
     // What operands [first, end) leave open together.
     [[nodiscard]] std::optional<OutlinedSolid> of(std::uint32_t first, std::uint32_t end,
@@ -79,7 +91,8 @@ public:
             return whole_operand(
                 meshes_, first,
                 is_open_far_out(*solids_[first], meshes_.operands->operands[first]));
-        const std::uint32_t middle = first + (end - first) / 2;
+        const bool is_alone = first_is_last_ && first == 0;
+        const std::uint32_t middle = is_alone ? 1 : first + (end - first) / 2;
         std::optional<OutlinedSolid> below;
         std::optional<OutlinedSolid> above;
         EvaluateStats of_above;
@@ -114,6 +127,7 @@ private:
     const SolidStates& solids_;
     const EvaluateSettings& options_;
     bool parallel_;
+    bool first_is_last_;  // with what all others leave open: its facets stay whole till then
     mutable PerThread<CommonPart> common_;
 };
 
@@ -234,7 +248,7 @@ bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
 
 bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                      const EvaluateSettings& options) {
-    return may_be_many_meshes(formula, solids, options) && are_crowded(solids);
+    return may_be_many_meshes(formula, solids, options) && crowd_of(solids) != Crowd::None;
 }
 
 std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula,
@@ -248,7 +262,6 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
     Box all;
     for (const auto& s : solids) {
         meshes.sources.push_back(&source_of(*s));
-        meshes.are_whole = meshes.are_whole && source_of(*s).is_whole();
         all.add(source_of(*s).box());
     }
     for (std::size_t k = 0; k < 3; ++k)

@@ -16,7 +16,8 @@ namespace trisect::detail {
 /// none of which has an index, and neither work nor memory is limited.
 [[nodiscard]] bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                       const EvaluateSettings& options);
-/// And whether their boxes mostly overlap: else more is compared pair by pair than in cells.
+/// And whether their boxes mostly overlap, or the first one's has half of all: else more is
+/// compared pair by pair than in cells.
 [[nodiscard]] bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                    const EvaluateSettings& options);
 

@@ -26,7 +26,6 @@ struct ManyMeshes {
     const Crossings* operands = nullptr;  ///< without pairs
     std::vector<const Source*> sources;   ///< by slot
     Vector3 extent{};                     ///< of all together
-    bool are_whole = true;                ///< all coordinates
     const OperandShifts* shifts = nullptr;
 
     [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const {

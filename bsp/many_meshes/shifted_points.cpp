@@ -351,10 +351,27 @@ private:
     bool needed_moves_ = false;
 };
 
-// With the numbers that the meshes take.
+bool are_whole(const ManyMeshes& meshes, std::initializer_list<std::uint32_t> facets) {
+    return std::ranges::all_of(
+        facets, [&](std::uint32_t f) { return meshes.sources[meshes.slot_of(f)]->is_whole(); });
+}
+
+bool is_whole(const ManyMeshes& meshes, const OutlineVertex& v) {
+    switch (v.kind) {
+        case OutlineVertex::Kind::Corner:
+            return are_whole(meshes, {v.facets[0]});
+        case OutlineVertex::Kind::Pierce:
+            return are_whole(meshes, {v.facets[0], v.facets[1]});
+        case OutlineVertex::Kind::Meeting:
+            break;
+    }
+    return are_whole(meshes, {v.facets[0], v.facets[1], v.facets[2]});
+}
+
+// With the numbers that the operands take.
 template <class Answer>
-auto with_numbers(const ManyMeshes& meshes, const Answer& answer) {
-    if (meshes.are_whole) {
+auto with_numbers(const ManyMeshes& meshes, bool whole, const Answer& answer) {
+    if (whole) {
         ShiftedSides<WholeNumbers> sides(meshes);
         return answer(sides);
     }
@@ -366,6 +383,8 @@ auto with_numbers(const ManyMeshes& meshes, const Answer& answer) {
 
 }  // namespace shifted
 
+using shifted::are_whole;
+using shifted::is_whole;
 using shifted::with_numbers;
 
 void ShiftedPoints::note(std::initializer_list<std::uint32_t> facets) const {
@@ -373,21 +392,24 @@ void ShiftedPoints::note(std::initializer_list<std::uint32_t> facets) const {
 }
 
 int ShiftedPoints::side(const OutlineVertex& vertex, std::uint32_t own, std::uint32_t facet) const {
-    return with_numbers(meshes_, [&](auto& sides) {
-        const int side = sides.side_of(vertex, sides.plane(facet));
-        if (!sides.needed_moves()) return side;
-        note({own, facet, vertex.facets[0]});
-        if (vertex.kind != OutlineVertex::Kind::Corner) note({vertex.facets[1]});
-        if (vertex.kind == OutlineVertex::Kind::Meeting) note({vertex.facets[2]});
-        return side;
-    });
+    return with_numbers(meshes_, is_whole(meshes_, vertex) && are_whole(meshes_, {facet}),
+                        [&](auto& sides) {
+                            const int side = sides.side_of(vertex, sides.plane(facet));
+                            if (!sides.needed_moves()) return side;
+                            note({own, facet, vertex.facets[0]});
+                            if (vertex.kind != OutlineVertex::Kind::Corner)
+                                note({vertex.facets[1]});
+                            if (vertex.kind == OutlineVertex::Kind::Meeting)
+                                note({vertex.facets[2]});
+                            return side;
+                        });
 }
 
 // The point in the plane of the first one is below or above the other one's; the edge falls or
 // rises through that.
 int ShiftedPoints::order_on_edge(std::uint32_t facet, std::int8_t edge, std::uint32_t one,
                                  std::uint32_t other) const {
-    return with_numbers(meshes_, [&](auto& sides) {
+    return with_numbers(meshes_, are_whole(meshes_, {facet, one, other}), [&](auto& sides) {
         const auto e = sides.edge(facet, edge);
         const auto plane = sides.plane(other);
         const int side = sides.side_on_edge(e, sides.plane(one), plane);
@@ -398,39 +420,43 @@ int ShiftedPoints::order_on_edge(std::uint32_t facet, std::int8_t edge, std::uin
 
 int ShiftedPoints::order_on_line(const std::array<std::uint32_t, 2>& line, std::uint32_t one,
                                  std::uint32_t other) const {
-    return with_numbers(meshes_, [&](auto& sides) {
-        const auto a = sides.plane(line[0]);
-        const auto b = sides.plane(line[1]);
-        const auto plane = sides.plane(other);
-        const int side = sides.side_of_meeting(a, b, sides.plane(one), plane);
-        if (sides.needed_moves()) note({line[0], line[1], one, other});
-        return side * sides.volume(a, b, plane).sign();
-    });
+    return with_numbers(meshes_, are_whole(meshes_, {line[0], line[1], one, other}),
+                        [&](auto& sides) {
+                            const auto a = sides.plane(line[0]);
+                            const auto b = sides.plane(line[1]);
+                            const auto plane = sides.plane(other);
+                            const int side = sides.side_of_meeting(a, b, sides.plane(one), plane);
+                            if (sides.needed_moves()) note({line[0], line[1], one, other});
+                            return side * sides.volume(a, b, plane).sign();
+                        });
 }
 
 int ShiftedPoints::order_to_end(const FacetCrossing& crossing, std::size_t end,
                                 std::uint32_t facet) const {
-    return with_numbers(meshes_, [&](auto& sides) {
-        const auto a = sides.plane(crossing.facets[0]);
-        const auto b = sides.plane(crossing.facets[1]);
-        const auto plane = sides.plane(facet);
-        const FacetCrossing::End& e = crossing.ends[end];
-        const auto edge = sides.edge(crossing.facets[e.of_second ? 1 : 0], e.edge);
-        const int side = sides.side_on_edge(edge, e.of_second ? a : b, plane);
-        if (sides.needed_moves()) note({crossing.facets[0], crossing.facets[1], facet});
-        return -side * sides.volume(a, b, plane).sign();
-    });
+    return with_numbers(
+        meshes_, are_whole(meshes_, {crossing.facets[0], crossing.facets[1], facet}),
+        [&](auto& sides) {
+            const auto a = sides.plane(crossing.facets[0]);
+            const auto b = sides.plane(crossing.facets[1]);
+            const auto plane = sides.plane(facet);
+            const FacetCrossing::End& e = crossing.ends[end];
+            const auto edge = sides.edge(crossing.facets[e.of_second ? 1 : 0], e.edge);
+            const int side = sides.side_on_edge(edge, e.of_second ? a : b, plane);
+            if (sides.needed_moves()) note({crossing.facets[0], crossing.facets[1], facet});
+            return -side * sides.volume(a, b, plane).sign();
+        });
 }
 
 Approximation ShiftedPoints::meeting(const std::array<std::uint32_t, 3>& facets) const {
-    return with_numbers(meshes_, [&](auto& sides) {
-        return sides.meeting(sides.plane(facets[0]), sides.plane(facets[1]),
-                             sides.plane(facets[2]));
-    });
+    return with_numbers(meshes_, are_whole(meshes_, {facets[0], facets[1], facets[2]}),
+                        [&](auto& sides) {
+                            return sides.meeting(sides.plane(facets[0]), sides.plane(facets[1]),
+                                                 sides.plane(facets[2]));
+                        });
 }
 
 ShiftedPoints::Direction ShiftedPoints::direction(std::uint32_t first, std::uint32_t second) const {
-    return with_numbers(meshes_, [&](auto& sides) {
+    return with_numbers(meshes_, are_whole(meshes_, {first, second}), [&](auto& sides) {
         return sides.direction(sides.plane(first), sides.plane(second));
     });
 }
@@ -438,13 +464,18 @@ ShiftedPoints::Direction ShiftedPoints::direction(std::uint32_t first, std::uint
 int ShiftedPoints::order_along(const OutlineVertex& vertex, const OutlineVertex& corner,
                                std::size_t axis) const {
     return with_numbers(
-        meshes_, [&](auto& sides) { return sides.side_of(vertex, sides.across(axis, corner)); });
+        meshes_, is_whole(meshes_, vertex) && is_whole(meshes_, corner),
+        [&](auto& sides) { return sides.side_of(vertex, sides.across(axis, corner)); });
 }
 
 int ShiftedPoints::order_at_height(std::uint32_t facet, const OutlinedSolid::Edge& edge,
                                    const OutlineVertex& corner,
                                    const std::array<std::size_t, 2>& axes) const {
-    return with_numbers(meshes_, [&](auto& sides) {
+    const bool whole =
+        is_whole(meshes_, corner) &&
+        (edge.line == nullptr ? are_whole(meshes_, {facet})
+                              : are_whole(meshes_, {edge.line->facets[0], edge.line->facets[1]}));
+    return with_numbers(meshes_, whole, [&](auto& sides) {
         const auto plane = sides.across(axes[0], corner);
         const auto at_height = sides.across(axes[1], corner);
         if (edge.line == nullptr)
@@ -455,12 +486,12 @@ int ShiftedPoints::order_at_height(std::uint32_t facet, const OutlinedSolid::Edg
 }
 
 int ShiftedPoints::slope(std::uint32_t facet, std::size_t axis) const {
-    return with_numbers(meshes_,
+    return with_numbers(meshes_, are_whole(meshes_, {facet}),
                         [&](auto& sides) { return sides.plane(facet).normal[axis].sign(); });
 }
 
 int ShiftedPoints::side_of_corner(const OutlineVertex& corner, std::uint32_t facet) const {
-    return with_numbers(meshes_,
+    return with_numbers(meshes_, is_whole(meshes_, corner) && are_whole(meshes_, {facet}),
                         [&](auto& sides) { return sides.side_of(corner, sides.plane(facet)); });
 }
 

@@ -2,13 +2,15 @@
 
 #include <trisect/bsp/many_meshes/special_pairs.h>
 
-#include <array>
-
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
 
 namespace trisect::detail {
 
 std::optional<FacetCrossing> SpecialPairs::crossing(std::uint32_t first, std::uint32_t second) {
+    if (are_known_in_plane(first, second)) {
+        look_at_plane(first, second, planes_[first].turned == planes_[second].turned, false);
+        return std::nullopt;
+    }
     const InfinitesimalShift shift =
         meshes_.shifts->of_pair(meshes_.slot_of(first), meshes_.slot_of(second));
     const ShiftedPair pair =
@@ -24,10 +26,25 @@ std::optional<FacetCrossing> SpecialPairs::crossing(std::uint32_t first, std::ui
             return FacetCrossing{{first, second}, pair.ends};
         case ShiftedPair::Kind::Equal:
         case ShiftedPair::Kind::Coplanar:
+            note_plane(first, second, pair.same_side);
             look_at_plane(first, second, pair.same_side, pair.kind == ShiftedPair::Kind::Equal);
             break;
     }
     return std::nullopt;
+}
+
+// Where long facets cover a face in two ways, all its pairs come here, so that a pair in a plane
+// must not take arithmetic each time.
+void SpecialPairs::note_plane(std::uint32_t first, std::uint32_t second, bool same_side) {
+    if (planes_.empty()) planes_.resize(meshes_.facet_count());
+    InPlane& a = planes_[first];
+    InPlane& b = planes_[second];
+    if (a.of == none && b.of == none) a = {first, false};
+    if (a.of == none) {
+        a = {b.of, b.turned == same_side};
+    } else if (b.of == none) {
+        b = {a.of, a.turned == same_side};
+    }
 }
 
 // Two facets that cover a part of a plane. Where one operand leaves open what is above it and the
@@ -40,14 +57,11 @@ void SpecialPairs::look_at_plane(std::uint32_t first, std::uint32_t second, bool
     const bool below_first = operands[first_slot].is_open_below();
     // As seen from the first one.
     const bool below_second = operands[second_slot].is_open_below() == same_side;
-    OperandShifts::Wanted wanted;
-    if (below_first != below_second) {
-        wanted.above = below_first ? second_slot : first_slot;
-        wanted.below = below_first ? first_slot : second_slot;
-        wanted.direction = normal_signs(meshes_.lattice_corners(first));
-        wanted.growth = {growth_along(wanted.above, first), -growth_along(wanted.below, first)};
-    }
-    const bool is_known = below_first == below_second || special_.is_wanted(wanted);
+    const bool are_opposite = below_first != below_second;
+    const InPlane& in_plane = planes_[first];
+    const Key128 key{std::uint64_t{in_plane.of} << 1 | (in_plane.turned ? 1U : 0U),
+                     std::uint64_t{first_slot} << 32 | second_slot};
+    const bool is_known = !are_opposite || settled_.find(key) >= 0;
     if (is_known && special_.has(first) && special_.has(second)) return;
     const Overlap overlap = are_equal ? Overlap::Insides
                                       : coplanar_overlap(meshes_.lattice_corners(first),
@@ -55,7 +69,14 @@ void SpecialPairs::look_at_plane(std::uint32_t first, std::uint32_t second, bool
     if (overlap == Overlap::None) return;
     special_.note(first);
     special_.note(second);
-    if (overlap == Overlap::Insides && !is_known) special_.want(wanted);
+    if (overlap != Overlap::Insides || is_known) return;
+    settled_.insert(key, 0);
+    const std::uint32_t above = below_first ? second_slot : first_slot;
+    const std::uint32_t below = below_first ? first_slot : second_slot;
+    special_.want({above,
+                   below,
+                   normal_signs(meshes_.lattice_corners(first)),
+                   {growth_along(above, first), -growth_along(below, first)}});
 }
 
 // Whether an operand grows upwards in the plane of a facet, or downwards; 0 where the centre is in

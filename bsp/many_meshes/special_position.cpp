@@ -11,8 +11,4 @@ void SpecialPosition::want(const OperandShifts::Wanted& wanted) {
     if (at == wanted_.end() || *at != wanted) wanted_.insert(at, wanted);
 }
 
-bool SpecialPosition::is_wanted(const OperandShifts::Wanted& wanted) const {
-    return std::ranges::binary_search(wanted_, wanted);
-}
-
 }  // namespace trisect::detail

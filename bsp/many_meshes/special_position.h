@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SpecialPosition: what has been found in special position among many meshes.
+// SpecialPosition: facets of many meshes that touch, and moves that are wanted.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,6 @@ public:
         return !marks_.empty() && marks_[facet] != 0;
     }
     void want(const OperandShifts::Wanted& wanted);
-    [[nodiscard]] bool is_wanted(const OperandShifts::Wanted& wanted) const;
 
     /// In no order, each once.
     [[nodiscard]] const std::vector<std::uint32_t>& facets() const { return facets_; }
