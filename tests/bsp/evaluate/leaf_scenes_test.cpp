@@ -191,6 +191,8 @@ TEST(LeafScenes, BoxesTurnedAboutAnAxisShareTwoPlanes) {
         if (with_pyramid) boxes.emplace_back(pyramid);
         trisect::EvaluateOptions one_leaf;
         one_leaf.leaf_polygons = 1000;
+        // By cells: a limit of work is counted by them.
+        const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});
         return evaluate(Expression::any_of(boxes), one_leaf, &stats);
     };
     EvaluateStats stats;
