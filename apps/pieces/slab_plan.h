@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SlabPlan: the walls of a boolean in slabs, and its job.
+// SlabPlan: the division of space for one boolean, and its job.
 #pragma once
 
 #include <cstdint>

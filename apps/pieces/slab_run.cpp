@@ -107,7 +107,18 @@ std::string SlabRun::scratch(std::size_t slab, std::size_t operand, std::size_t 
     return fmt::format("{}.{}.{}", path("slab", slab), operand, share);
 }
 
+namespace {
+
+void make_folder(const std::string& name) {
+    std::error_code failed;
+    std::filesystem::create_directories(name, failed);
+    if (failed) throw Error(ErrorCode::Input, name + ": cannot be made: " + failed.message());
+}
+
+}  // namespace
+
 void SlabRun::plan() {
+    if (!options_.natives.empty()) make_folder(options_.natives);
     const std::string name = options_.folder + "/plan";
     if (std::filesystem::exists(options_.folder)) {
         if (!std::filesystem::exists(name) && !std::filesystem::is_empty(options_.folder))
@@ -123,10 +134,7 @@ void SlabRun::plan() {
         std::filesystem::remove_all(options_.folder);
     }
     plan_ = make_plan(options_);
-    std::error_code failed;
-    std::filesystem::create_directories(options_.folder, failed);
-    if (failed)
-        throw Error(ErrorCode::Input, options_.folder + ": cannot be made: " + failed.message());
+    make_folder(options_.folder);
     write_plan(name, plan_, job_);
 }
 

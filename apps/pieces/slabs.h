@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Slabs: parts of space of about one load, between parallel walls.
+// Slabs: parts of space of about one load each.
 #pragma once
 
 #include <array>

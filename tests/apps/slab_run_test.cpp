@@ -69,7 +69,6 @@ protected:
         out.output = path("out.ply");
         out.folder = path("out.slabs");
         out.natives = path("natives");
-        std::filesystem::create_directories(out.natives);
         return out;
     }
     static std::size_t finish(SlabRun& run, std::size_t shares) {
