@@ -206,7 +206,8 @@ bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, std::uint32_
     const double way = length > 0 ? 1 : -1;
     for (Stop& s : stops) s.along = way * made_[s.vertex].at.c[axis];
     bool known = true;
-    std::ranges::sort(stops, [&](const Stop& s, const Stop& t) {
+    // Stable sorting stays within its range, whatever the answers.
+    std::ranges::stable_sort(stops, [&](const Stop& s, const Stop& t) {
         const double error = bound_slack * (made_[s.vertex].at.error + made_[t.vertex].at.error);
         if (has_way && std::fabs(t.along - s.along) > error) return s.along < t.along;
         if (s.vertex == t.vertex) return false;

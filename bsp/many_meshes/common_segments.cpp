@@ -165,7 +165,9 @@ bool CommonSegments::set_place(Passage& p, const std::array<std::uint32_t, 3>& f
 
 bool CommonSegments::sort_inside() {
     bool known = true;
-    std::ranges::sort(inside_, [&](const Passage& a, const Passage& b) {
+    if (inside_.size() < 2) return true;
+    // Stable sorting stays within its range, whatever the answers.
+    std::ranges::stable_sort(inside_, [&](const Passage& a, const Passage& b) {
         if (std::fabs(b.along - a.along) > bound_slack * (a.at.error + b.at.error))
             return a.along < b.along;
         if (a.edge == b.edge && a.of_second == b.of_second) return false;
