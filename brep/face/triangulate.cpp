@@ -51,7 +51,9 @@ class SweepTriangulator {
 public:
     SweepTriangulator(const Plane& plane, std::span<const Point> points,
                       std::span<const IndexLoop> loops)
-        : figure_(plane, points, loops), line_(figure_), region_of_(figure_.corner_count(), decltype(line_)::none) {}
+        : figure_(plane, points, loops),
+          line_(figure_),
+          region_of_(figure_.corner_count(), decltype(line_)::none) {}
 
     std::vector<IndexTriangle> run() {
         const std::size_t wanted =
