@@ -168,30 +168,15 @@ private:
 
     // Welds, renames, looks at the triangles and at their sides.
     SideBalance connect() {
-        const std::size_t n = points().size();
-        // Where each triangle has points of its own their names say nothing.
-        const bool shared = n <= input_.triangles.size();
-        const ParallelParts parts = sharing_.parts(input_.triangles.size());
-        if (parts.count() == 1 || !shared) {
-            weld();
-            look_at_triangles();
-            return balance_sides(points().size(), triangles());
-        }
-        SideBalance sides;
-        both_at_once([&] { sides = balance_sides(n, input_.triangles); },
-                     [&] {
-                         weld();
-                         look_at_triangles();
-                     });
-        // Sides that cancel go on to do so when points get the same name.
-        if (sides.cancel || names_.empty()) return sides;
-        return balance_sides(points().size(), triangles());
+        weld();
+        look_at_triangles();
+        return balance_sides(points().size(), triangles(), sharing_.threads);
     }
 
     void weld() {
         // A closed surface has half as many points as triangles, give or take.
-        names_ =
-            weld_in_place(points(), input_.triangles.size() / 2 + input_.triangles.size() / 16);
+        names_ = weld_in_place(points(), input_.triangles.size() / 2 + input_.triangles.size() / 16,
+                               sharing_.threads);
         out_.report.welded_points = input_.points.size() - points().size();
     }
 

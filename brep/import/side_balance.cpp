@@ -23,6 +23,8 @@
 #include <memory>
 #include <vector>
 
+#include <trisect/kernel/support/large_pages.h>
+#include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect::detail {
@@ -38,6 +40,9 @@ constexpr auto to_of(Ends e) { return static_cast<std::uint32_t>(e); }
 constexpr auto from_of(Ends e) { return static_cast<std::uint32_t>(e >> 32); }
 
 constexpr std::size_t row_size = 8;
+
+// Fewer are not worth a look at all triangles.
+constexpr std::size_t least_balanced_points = 4096;
 
 // Of a vertex. Only the first entries are written.
 struct alignas(64) Row {
@@ -92,11 +97,16 @@ TRISECT_WIDE_CLONES void list_unclear(const Row* rows, const std::uint8_t* count
 
 class CornerRows {
 public:
-    explicit CornerRows(std::size_t point_count)
-        : rows_(std::make_unique_for_overwrite<Row[]>(point_count)), counts_(point_count) {}
+    // Of the points [first, end) of so many. A row more takes what belongs to others.
+    CornerRows(std::size_t first, std::size_t end, std::size_t point_count)
+        : first_(static_cast<std::uint32_t>(first)),
+          size_(static_cast<std::uint32_t>(end - first)),
+          point_count_(point_count),
+          rows_(make_large_array<Row>(end - first + 1)),
+          counts_(end - first + 1) {}
 
-    // Not inlined: the loop wants all registers.
-    [[gnu::noinline]] void add(std::span<const std::uint32_t> corners) {
+    // Of triangles that are corners of all points.
+    [[gnu::noinline]] void add_all(std::span<const std::uint32_t> corners) {
         // Bytes may alias anything: what the loop reads must not be read through `this`.
         Ends* const rows = rows_.get()->ends.data();
         std::uint8_t* const counts = counts_.data();
@@ -126,20 +136,58 @@ public:
         }
     }
 
+    // The same where there are others, too. Whether a triangle has a corner here is foreseen
+    // mostly, since neighbours follow each other; which one it is is not, and hence no branch.
+    [[gnu::noinline]] void add_own(std::span<const std::uint32_t> corners) {
+        Ends* const rows = rows_.get()->ends.data();
+        std::uint8_t* const counts = counts_.data();
+        std::vector<LateEnds>& late = late_;
+        const std::uint32_t first = first_;
+        const std::uint32_t size = size_;
+        const auto put = [=, &late](std::uint32_t v, std::uint64_t to, std::uint64_t from) {
+            const bool own = v < size;
+            const std::uint64_t row = own ? v : size;
+            const std::uint64_t n = counts[row];
+            const Ends e = ends(to, from);
+            if (n == row_size) [[unlikely]] {
+                add_late(late, row, e);
+                return;
+            }
+            rows[row_size * row + n] = e;
+            counts[row] = static_cast<std::uint8_t>(n + (own ? 1 : 0));
+        };
+        const std::uint32_t* const end = corners.data() + corners.size() / 3 * 3;
+        for (const std::uint32_t* at = corners.data(); at != end; at += 3) {
+            const std::uint32_t a = at[0];
+            const std::uint32_t b = at[1];
+            const std::uint32_t c = at[2];
+            const std::uint32_t from_a = a - first;
+            const std::uint32_t from_b = b - first;
+            const std::uint32_t from_c = c - first;
+            if (std::min({from_a, from_b, from_c}) >= size) continue;
+            if (a == b || b == c || c == a) [[unlikely]]
+                continue;
+            put(from_a, b, c);
+            put(from_b, c, a);
+            put(from_c, a, b);
+        }
+    }
+
     [[nodiscard]] bool cancel() {
         std::vector<std::uint32_t> unclear;
-        list_unclear(rows_.get(), counts_.data(), counts_.size(), unclear);
+        list_unclear(rows_.get(), counts_.data(), size_, unclear);
         std::ranges::sort(late_, {}, &LateEnds::vertex);
         // Those with late ends, once each: their rows may be clear by themselves.
         for (std::size_t i = 0; i < late_.size(); ++i)
             if (i == 0 || late_[i].vertex != late_[i - 1].vertex)
                 unclear.push_back(late_[i].vertex);
-        net_.resize(unclear.empty() ? 0 : counts_.size());
+        net_.resize(unclear.empty() ? 0 : point_count_);
         return std::ranges::all_of(unclear, [this](std::uint32_t v) { return cancel_at(v); });
     }
 
     [[nodiscard]] bool are_at_all_points() const {
-        return std::ranges::find(counts_, std::uint8_t{0}) == counts_.end();
+        const std::span counts = std::span(counts_).first(size_);
+        return std::ranges::find(counts, std::uint8_t{0}) == counts.end();
     }
 
 private:
@@ -168,7 +216,10 @@ private:
                std::ranges::all_of(late, is_even, &LateEnds::ends);
     }
 
-    std::unique_ptr<Row[]> rows_;
+    std::uint32_t first_;
+    std::uint32_t size_;
+    std::size_t point_count_;
+    std::unique_ptr<Row[]> rows_;  // of the points from the first one on
     std::vector<std::uint8_t> counts_;
     std::vector<LateEnds> late_;
     std::vector<std::int32_t> net_;  // of each end: sides that leave for it less those that come
@@ -177,14 +228,25 @@ private:
 }  // namespace
 
 SideBalance balance_sides(std::size_t point_count, std::span<const std::uint32_t> corners) {
-    CornerRows all(point_count);
-    all.add(corners);
+    CornerRows all(0, point_count, point_count);
+    all.add_all(corners);
     return {all.cancel(), all.are_at_all_points()};
 }
 
-SideBalance balance_sides(std::size_t point_count, std::span<const Triangle> triangles) {
+SideBalance balance_sides(std::size_t point_count, std::span<const Triangle> triangles,
+                          std::uint32_t threads) {
     if (triangles.empty()) return balance_sides(point_count, std::span<const std::uint32_t>());
-    return balance_sides(point_count, {triangles.front().data(), 3 * triangles.size()});
+    const std::span<const std::uint32_t> corners{triangles.front().data(), 3 * triangles.size()};
+    const ParallelParts parts = parts_by_thread(point_count, threads, least_balanced_points);
+    if (parts.count() == 1) return balance_sides(point_count, corners);
+    std::vector<SideBalance> found(parts.count());
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        CornerRows own(begin, end, point_count);
+        own.add_own(corners);
+        found[part] = {own.cancel(), own.are_at_all_points()};
+    });
+    return {std::ranges::all_of(found, &SideBalance::cancel),
+            std::ranges::all_of(found, &SideBalance::reach_all_points)};
 }
 
 }  // namespace trisect::detail

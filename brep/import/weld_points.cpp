@@ -12,15 +12,23 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <limits>
 #include <numeric>
+#include <utility>
+
+#include <trisect/kernel/support/large_pages.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
 namespace {
 
 constexpr std::uint32_t empty_slot = std::numeric_limits<std::uint32_t>::max();
+
+// Fewer are not worth a look at the hashes of all.
+constexpr std::size_t least_hashed_points = 8192;
 
 // The bits of small integers are at the upper end of doubles, so they are brought down first.
 std::uint64_t hash(const LatticePoint& p) {
@@ -33,38 +41,19 @@ std::uint64_t hash(const LatticePoint& p) {
     return h ^ (h >> 29);
 }
 
-// Finds, of each point, the first index with the same value.
-class FirstByHash {
+// A set of points by their values, as indices: of equal ones the one that came first.
+class PointSet {
 public:
-    FirstByHash(std::span<const LatticePoint> points, std::size_t expected)
+    PointSet(std::span<const LatticePoint> points, std::size_t expected, std::size_t most)
         : points_(points),
-          table_(std::bit_ceil(2 * std::min(expected, points.size()) + 2), empty_slot),
-          probes_left_(static_cast<std::ptrdiff_t>(32 * points.size() + 1024)) {}
+          most_(most),
+          table_(std::bit_ceil(2 * std::min(expected, most) + 2), empty_slot),
+          probes_left_(static_cast<std::ptrdiff_t>(32 * most + 1024)) {}
 
-    // Fills `first`, or leaves it empty when all points are distinct; false when probing takes too
-    // long.
-    bool run(std::vector<std::uint32_t>& first) {
-        constexpr std::size_t block = 64;
-        std::array<std::uint64_t, block> hashes{};
-        for (std::size_t begin = 0; begin < points_.size(); begin += block) {
-            const std::size_t n = std::min(block, points_.size() - begin);
-            make_room(n, begin, first);
-            for (std::size_t i = 0; i < n; ++i) {
-                hashes[i] = hash(points_[begin + i]);
-                __builtin_prefetch(&table_[hashes[i] & (table_.size() - 1)]);
-            }
-            for (std::size_t i = 0; i < n; ++i) {
-                const auto index = static_cast<std::uint32_t>(begin + i);
-                const std::uint32_t found = insert(index, hashes[i]);
-                if (found != index && first.empty()) begin_list(first, index);
-                if (!first.empty()) first[index] = found;
-            }
-            if (probes_left_ < 0) return false;
-        }
-        return true;
-    }
+    [[nodiscard]] bool takes_too_long() const { return probes_left_ < 0; }
+    void prefetch(std::uint64_t h) const { __builtin_prefetch(&table_[h & (table_.size() - 1)]); }
 
-private:
+    // The first one with the value, which may be this one.
     std::uint32_t insert(std::uint32_t index, std::uint64_t h) {
         const std::size_t mask = table_.size() - 1;
         std::size_t slot = h & mask;
@@ -78,26 +67,103 @@ private:
         return index;
     }
 
-    // Keeps the table at most half full while `n` more points come; `done` ones are in it.
-    void make_room(std::size_t n, std::size_t done, std::span<const std::uint32_t> first) {
-        if (2 * (distinct_ + n) <= table_.size() || 2 * points_.size() <= table_.size()) return;
-        table_.assign(std::bit_ceil(std::min(4 * (distinct_ + n), 2 * points_.size())), empty_slot);
+    // Keeps the table at most half full while `n` more points come.
+    void make_room(std::size_t n) {
+        if (2 * (distinct_ + n) <= table_.size() || 2 * most_ <= table_.size()) return;
+        const std::vector<std::uint32_t> old = std::exchange(
+            table_, std::vector<std::uint32_t>(
+                        std::bit_ceil(std::min(4 * (distinct_ + n), 2 * most_)), empty_slot));
         distinct_ = 0;
-        for (std::size_t i = 0; i < done; ++i)
-            if (first.empty() || first[i] == i)
-                insert(static_cast<std::uint32_t>(i), hash(points_[i]));
+        for (const std::uint32_t i : old)
+            if (i != empty_slot) insert(i, hash(points_[i]));
     }
 
-    void begin_list(std::vector<std::uint32_t>& first, std::uint32_t index) const {
-        first.resize(points_.size());
-        std::iota(first.begin(), first.begin() + index, 0U);
-    }
-
+private:
     std::span<const LatticePoint> points_;
+    std::size_t most_;
     std::vector<std::uint32_t> table_;
     std::size_t distinct_ = 0;
     std::ptrdiff_t probes_left_;
 };
+
+constexpr std::size_t hash_block = 64;
+
+// Fills `first` with the first index of the same value, or leaves it empty when all points are
+// distinct; false when probing takes too long.
+bool find_first_by_hash(std::span<const LatticePoint> points, std::size_t expected,
+                        std::vector<std::uint32_t>& first) {
+    PointSet set(points, expected, points.size());
+    std::array<std::uint64_t, hash_block> hashes{};
+    for (std::size_t begin = 0; begin < points.size(); begin += hash_block) {
+        const std::size_t n = std::min(hash_block, points.size() - begin);
+        set.make_room(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            hashes[i] = hash(points[begin + i]);
+            set.prefetch(hashes[i]);
+        }
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto index = static_cast<std::uint32_t>(begin + i);
+            const std::uint32_t found = set.insert(index, hashes[i]);
+            if (found != index && first.empty()) {
+                first.resize(points.size());
+                std::iota(first.begin(), first.begin() + index, 0U);
+            }
+            if (!first.empty()) first[index] = found;
+        }
+        if (set.takes_too_long()) return false;
+    }
+    return true;
+}
+
+// A point that is equal to an earlier one, the first of them.
+using Repeated = std::pair<std::uint32_t, std::uint32_t>;
+
+// Those among the points whose hashes lie in one of several equal ranges; false when probing takes
+// too long.
+bool find_repeated(std::span<const LatticePoint> points, std::span<const std::uint64_t> hashes,
+                   std::size_t range, std::size_t ranges, std::size_t expected,
+                   std::vector<Repeated>& repeated) {
+    PointSet set(points, expected / ranges, points.size());
+    std::array<std::uint32_t, hash_block> block{};
+    for (std::size_t at = 0; at < points.size();) {
+        std::size_t n = 0;
+        for (; at < points.size() && n < hash_block; ++at) {
+            block[n] = static_cast<std::uint32_t>(at);
+            n += (hashes[at] >> 32) * ranges >> 32 == range ? 1 : 0;
+        }
+        set.make_room(n);
+        for (std::size_t i = 0; i < n; ++i) set.prefetch(hashes[block[i]]);
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::uint32_t found = set.insert(block[i], hashes[block[i]]);
+            if (found != block[i]) repeated.emplace_back(block[i], found);
+        }
+        if (set.takes_too_long()) return false;
+    }
+    return true;
+}
+
+// Equal points have equal hashes, so each thread has the points of a range of these.
+bool find_first_on_threads(std::span<const LatticePoint> points, std::size_t expected,
+                           const ParallelParts& parts, std::vector<std::uint32_t>& first) {
+    const auto hashes = make_large_array<std::uint64_t>(points.size());
+    parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) hashes[i] = hash(points[i]);
+    });
+    std::vector<std::vector<Repeated>> repeated(parts.count());
+    std::atomic<bool> done{true};
+    parts.for_each([&](std::size_t part, std::size_t, std::size_t) {
+        if (!find_repeated(points, {hashes.get(), points.size()}, part, parts.count(), expected,
+                           repeated[part]))
+            done = false;
+    });
+    if (!done) return false;
+    if (std::ranges::all_of(repeated, &std::vector<Repeated>::empty)) return true;
+    first.resize(points.size());
+    std::iota(first.begin(), first.end(), 0U);
+    for (const auto& of_part : repeated)
+        for (const auto& [index, of_first] : of_part) first[index] = of_first;
+    return true;
+}
 
 void find_first_by_sorting(std::span<const LatticePoint> points,
                            std::vector<std::uint32_t>& first) {
@@ -115,9 +181,13 @@ void find_first_by_sorting(std::span<const LatticePoint> points,
 }
 
 // Of each point the first index with the same value; may be empty when all are distinct.
-std::vector<std::uint32_t> find_first(std::span<const LatticePoint> points, std::size_t expected) {
+std::vector<std::uint32_t> find_first(std::span<const LatticePoint> points, std::size_t expected,
+                                      std::uint32_t threads = 1) {
     std::vector<std::uint32_t> first;
-    if (!FirstByHash(points, expected).run(first)) find_first_by_sorting(points, first);
+    const ParallelParts parts = parts_by_thread(points.size(), threads, least_hashed_points);
+    const bool done = parts.count() == 1 ? find_first_by_hash(points, expected, first)
+                                         : find_first_on_threads(points, expected, parts, first);
+    if (!done) find_first_by_sorting(points, first);
     return first;
 }
 
@@ -147,8 +217,9 @@ WeldedPoints weld_points(std::span<const LatticePoint> points) {
     return out;
 }
 
-std::vector<std::uint32_t> weld_in_place(std::vector<LatticePoint>& points, std::size_t expected) {
-    std::vector<std::uint32_t> id = find_first(points, expected);
+std::vector<std::uint32_t> weld_in_place(std::vector<LatticePoint>& points, std::size_t expected,
+                                         std::uint32_t threads) {
+    std::vector<std::uint32_t> id = find_first(points, expected, threads);
     if (id.empty()) return id;
     std::uint32_t n = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {

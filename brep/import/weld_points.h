@@ -25,7 +25,10 @@ struct WeldedPoints {
 /// The same numbering without the tables that only repeated points need: keeps the distinct points
 /// and returns the id of each input point, or nothing when all are distinct and keep their indices.
 /// `expected` is how many distinct points there may be, a hint for the size of the table.
+/// `threads`: how many may take part, 0 means as many as there are here; the outcome does not
+/// depend on it.
 [[nodiscard]] std::vector<std::uint32_t> weld_in_place(std::vector<LatticePoint>& points,
-                                                       std::size_t expected);
+                                                       std::size_t expected,
+                                                       std::uint32_t threads = 1);
 
 }  // namespace trisect::detail

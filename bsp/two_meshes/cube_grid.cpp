@@ -2,7 +2,12 @@
 
 #include <trisect/bsp/two_meshes/cube_grid.h>
 
+#include <atomic>
 #include <memory>
+
+#include <trisect/bsp/two_meshes/listed_numbers.h>
+#include <trisect/kernel/support/large_pages.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
@@ -77,79 +82,106 @@ ShapeRows all_that_meet(const CubeGrid& grid, const CubeSet& cubes) {
     return begins;
 }
 
+// Fewer facets or points are not worth a thread.
+constexpr std::size_t least_in_grid = 16384;
+
 // Rows that facets over more than two slabs may have in all. A grid of four slabs, with two more
 // around them, has so many for each.
 std::size_t most_rows(std::size_t facets) { return 36 * facets + 4096; }
 
 }  // namespace
 
-OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh)
+OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh, std::uint32_t threads)
     : grid_(grid),
       triangles_(mesh.triangles),
-      of_points_(std::make_unique_for_overwrite<CubeGrid::Cube[]>(mesh.points.size())),
-      places_(std::make_unique_for_overwrite<std::uint32_t[]>(mesh.triangles.size())) {
-    const CubeGrid by_value = grid;  // nothing that is written may be a part of it
-    CubeGrid::Cube* out = of_points_.get();
-    for (const LatticePoint& p : mesh.points) *out++ = by_value.cube_of(p);
-    is_useful_ = mark_facets();
+      of_points_(make_large_array<CubeGrid::Cube>(mesh.points.size())),
+      places_(make_large_array<std::uint32_t>(mesh.triangles.size())) {
+    ParallelParts(mesh.points.size(), threads, least_in_grid)
+        .for_each([&, by_value = grid, out = of_points_.get()](std::size_t, std::size_t begin,
+                                                               std::size_t end) {
+            // Nothing that is written may be a part of the grid.
+            for (std::size_t i = begin; i < end; ++i) out[i] = by_value.cube_of(mesh.points[i]);
+        });
+    is_useful_ = mark_facets(threads);
     bytes_ = mesh.points.size() * sizeof(CubeGrid::Cube) +
              mesh.triangles.size() * sizeof(std::uint32_t) +
              occupied_.size() * sizeof(std::uint64_t);
 }
 
-bool OccupiedCubes::mark_facets() {
-    ShapeRows begins(grid_);
-    std::vector<std::uint32_t> large;
+// Calls mark(row, bits) for the facets that are not large.
+template <class Mark>
+void OccupiedCubes::mark_part(std::size_t begin, std::size_t end, const Mark& mark,
+                              std::vector<std::uint32_t>& large) {
     const CubeGrid::Cube* const of_points = of_points_.get();
-    std::uint64_t* const rows = begins.of(0);
+    std::uint32_t* const places = places_.get();
     const CubeGrid grid = grid_;
-    const std::size_t of_shape = begins.padded;
-    std::uint32_t* place = places_.get();
-    for (const auto& t : triangles_) {
+    const std::array<std::uint32_t, 3>* const triangles = triangles_.data();
+    for (std::size_t f = begin; f < end; ++f) {
+        const auto& t = triangles[f];
         const CubeRange range(of_points[t[0]], of_points[t[1]], of_points[t[2]]);
         const unsigned shape = range.shape();
-        *place++ = range.lo | shape << 24;
+        places[f] = range.lo | shape << 24;
         if (shape == CubeRange::large) [[unlikely]] {
-            large.push_back(static_cast<std::uint32_t>(place - places_.get() - 1));
+            large.push_back(static_cast<std::uint32_t>(f));
             continue;
         }
-        rows[shape * of_shape + grid.row(range.lo)] |= std::uint64_t{1} << CubeGrid::x(range.lo);
+        mark(shape, grid.row(range.lo), std::uint64_t{1} << CubeGrid::x(range.lo));
+    }
+}
+
+bool OccupiedCubes::mark_facets(std::uint32_t threads) {
+    ShapeRows begins(grid_);
+    std::uint64_t* const rows = begins.of(0);
+    const std::size_t of_shape = begins.padded;
+    const ParallelParts parts(triangles_.size(), threads, least_in_grid);
+    std::vector<std::vector<std::uint32_t>> large(parts.count());
+    if (parts.count() == 1) {
+        const auto mark = [=](unsigned shape, std::size_t row, std::uint64_t bit) {
+            rows[shape * of_shape + row] |= bit;
+        };
+        mark_part(0, triangles_.size(), mark, large[0]);
+    } else {
+        // Nearly always another facet has set the bit; to look first keeps caches from waiting.
+        const auto mark = [=](unsigned shape, std::size_t row, std::uint64_t bit) {
+            const std::atomic_ref bits(rows[shape * of_shape + row]);
+            if ((bits.load(std::memory_order_relaxed) & bit) == 0)
+                bits.fetch_or(bit, std::memory_order_relaxed);
+        };
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            mark_part(begin, end, mark, large[part]);
+        });
     }
     std::size_t rows_of_large = 0;
-    for (const std::uint32_t f : large) rows_of_large += range_of(f).row_count();
+    for (const auto& of_part : large)
+        for (const std::uint32_t f : of_part) rows_of_large += range_of(f).row_count();
     if (rows_of_large > most_rows(triangles_.size())) return false;
     occupied_ = all_met(std::move(begins));
-    for (const std::uint32_t f : large)
-        range_of(f).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
-            occupied_.row(row) |= bits;
-            return true;
-        });
+    for (const auto& of_part : large)
+        for (const std::uint32_t f : of_part)
+            range_of(f).for_each_row(grid_, [&](std::size_t row, std::uint64_t bits) {
+                occupied_.row(row) |= bits;
+                return true;
+            });
     return true;
 }
 
-std::vector<std::uint32_t> OccupiedCubes::facets_in(const CubeSet& cubes) const {
+std::vector<std::uint32_t> OccupiedCubes::facets_in(const CubeSet& cubes,
+                                                    std::uint32_t threads) const {
     ShapeRows begins = all_that_meet(grid_, cubes);
-    const CubeGrid grid = grid_;
-    const std::size_t of_shape = begins.padded;
-    const auto found = std::make_unique_for_overwrite<std::uint32_t[]>(triangles_.size() + 1);
-    std::uint32_t* end = found.get();
     const std::uint64_t* const rows = begins.of(0);
-    std::uint32_t number = 0;
-    for (const std::uint32_t place : std::span(places_.get(), triangles_.size())) {
-        const std::size_t shape = place >> 24;
-        const CubeGrid::Cube lo = place & 0xffffff;
-        bool meets = false;
-        if (shape == CubeRange::large) [[unlikely]] {
-            meets = !range_of(number).for_each_row(grid, [&](std::size_t row, std::uint64_t bits) {
-                return (cubes.row(row) & bits) == 0;
-            });
-        } else {
-            meets = (rows[shape * of_shape + grid.row(lo)] >> CubeGrid::x(lo) & 1U) != 0;
-        }
-        *end = number++;
-        end += meets ? 1 : 0;
-    }
-    return {found.get(), end};
+    const std::size_t of_shape = begins.padded;
+    return numbers_that(
+        triangles_.size(), threads,
+        [&, grid = grid_, places = places_.get()](std::uint32_t number) {
+            const std::size_t shape = places[number] >> 24;
+            const CubeGrid::Cube lo = places[number] & 0xffffff;
+            if (shape == CubeRange::large) [[unlikely]]
+                return !range_of(number).for_each_row(grid,
+                                                      [&](std::size_t row, std::uint64_t bits) {
+                                                          return (cubes.row(row) & bits) == 0;
+                                                      });
+            return (rows[shape * of_shape + grid.row(lo)] >> CubeGrid::x(lo) & 1U) != 0;
+        });
 }
 
 }  // namespace trisect::detail

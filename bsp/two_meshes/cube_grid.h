@@ -133,7 +133,9 @@ struct CubeRange {
 /// The cubes that facets of a mesh may meet: those that meet the box of a facet.
 class OccupiedCubes {
 public:
-    OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh);
+    /// `threads`, here and below: 1, or 0 for as many as there are here; the outcome does not
+    /// depend on it.
+    OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh, std::uint32_t threads = 1);
 
     /// False when facets meet so many cubes that larger ones are better; then the rest is not
     /// there. Those of a grid of four slabs always are.
@@ -146,12 +148,16 @@ public:
         return places_[facet] & 0xffffff;
     }
     /// The facets whose boxes meet some cube of a set, in order.
-    [[nodiscard]] std::vector<std::uint32_t> facets_in(const CubeSet& cubes) const;
+    [[nodiscard]] std::vector<std::uint32_t> facets_in(const CubeSet& cubes,
+                                                       std::uint32_t threads = 1) const;
     /// Memory behind it.
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
 private:
-    [[nodiscard]] bool mark_facets();
+    [[nodiscard]] bool mark_facets(std::uint32_t threads);
+    template <class Mark>
+    void mark_part(std::size_t begin, std::size_t end, const Mark& mark,
+                   std::vector<std::uint32_t>& large);
     [[nodiscard]] CubeRange range_of(std::uint32_t facet) const {
         const auto& t = triangles_[facet];
         return {of_points_[t[0]], of_points_[t[1]], of_points_[t[2]]};

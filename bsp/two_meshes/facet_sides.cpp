@@ -11,10 +11,11 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
+#include <atomic>
 #include <numeric>
 
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
+#include <trisect/bsp/two_meshes/listed_numbers.h>
 #include <trisect/bsp/two_meshes/point_side.h>
 
 namespace trisect::detail {
@@ -30,13 +31,14 @@ constexpr std::size_t few_lines = 8;
 
 FacetSides::FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
                        const CubeSet& other, std::span<const std::uint32_t> near,
-                       std::span<const EqualFacets::Fate> fates)
+                       std::span<const EqualFacets::Fate> fates, std::uint32_t threads)
     : grid_(grid),
       mesh_(mesh),
       cubes_(cubes),
       other_(other),
       near_(near),
       fates_(fates),
+      threads_(threads),
       is_crossed_(near.size()),
       nodes_(mesh.points.size()) {
     list_runs();
@@ -89,6 +91,16 @@ std::uint32_t FacetSides::node_of(std::uint32_t point) {
 std::uint32_t FacetSides::root(std::uint32_t node) {
     while (parents_[node] != node) node = parents_[node] = parents_[parents_[node]];
     return node;
+}
+
+// Every node then has its root for its parent. Parents come before their children.
+void FacetSides::flatten() {
+    for (std::uint32_t& parent : parents_) parent = parents_[parent];
+}
+
+// Of a point that has a node, once all are joined.
+FacetSides::Side FacetSides::side_of_joined(std::uint32_t point) const {
+    return sides_[parents_[nodes_[point] - 1]];
 }
 
 void FacetSides::join(std::uint32_t a, std::uint32_t b) {
@@ -312,35 +324,43 @@ std::optional<std::vector<std::uint32_t>> FacetSides::list_uncrossed(bool below)
         if (known == Side::Unknown) unknown.row(row) |= runs_[i].bits & cubes_.cubes().row(row);
     }
     const bool any_unknown = unknown.is_any();
-    const auto facets = std::make_unique_for_overwrite<std::uint32_t[]>(mesh_.triangles.size() + 1);
-    std::uint32_t* end = facets.get();
-    bool is_known = true;
-    const auto add_far = [&, grid = grid_](std::uint32_t begin, std::uint32_t last) {
-        std::uint32_t* to = end;
-        for (std::uint32_t f = begin; f < last; ++f) {
-            *to = f;
-            to += wanted.has(grid, cubes_.cube_of_facet(f)) ? 1 : 0;
-        }
-        end = to;
-        for (std::uint32_t f = begin; any_unknown && f < last; ++f)
-            is_known = is_known && !unknown.has(grid, cubes_.cube_of_facet(f));
-    };
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < near_.size(); ++i) {
-        add_far(next, near_[i]);
-        next = near_[i] + 1;
-        if (has_equal(i)) {
-            if (fates_[i] == EqualFacets::Fate::Kept) *end++ = near_[i];
-            continue;
-        }
-        if (is_crossed_[i] != 0) continue;
-        const Side known = sides_[root(node_of(mesh_.triangles[near_[i]][0]))];
-        if (known == side) *end++ = near_[i];
-        is_known = is_known && known != Side::Unknown;
-    }
-    add_far(next, static_cast<std::uint32_t>(mesh_.triangles.size()));
+    flatten();
+    std::atomic<bool> is_known{true};
+    auto facets = listed_in_parts(
+        mesh_.triangles.size(), threads_,
+        [&](std::size_t begin, std::size_t end, std::uint32_t* out) {
+            bool known = true;
+            const auto add_far = [&, grid = grid_](std::uint32_t first, std::uint32_t last) {
+                std::uint32_t* to = out;
+                for (std::uint32_t f = first; f < last; ++f) {
+                    *to = f;
+                    to += wanted.has(grid, cubes_.cube_of_facet(f)) ? 1 : 0;
+                }
+                out = to;
+                for (std::uint32_t f = first; any_unknown && f < last; ++f)
+                    known = known && !unknown.has(grid, cubes_.cube_of_facet(f));
+            };
+            auto next = static_cast<std::uint32_t>(begin);
+            for (auto i = static_cast<std::size_t>(std::ranges::lower_bound(near_, next) -
+                                                   near_.begin());
+                 i < near_.size() && near_[i] < end; ++i) {
+                add_far(next, near_[i]);
+                next = near_[i] + 1;
+                if (has_equal(i)) {
+                    if (fates_[i] == EqualFacets::Fate::Kept) *out++ = near_[i];
+                    continue;
+                }
+                if (is_crossed_[i] != 0) continue;
+                const Side of_facet = side_of_joined(mesh_.triangles[near_[i]][0]);
+                if (of_facet == side) *out++ = near_[i];
+                known = known && of_facet != Side::Unknown;
+            }
+            add_far(next, static_cast<std::uint32_t>(end));
+            if (!known) is_known = false;
+            return out;
+        });
     if (!is_known) return std::nullopt;
-    return std::vector<std::uint32_t>(facets.get(), end);
+    return facets;
 }
 
 std::vector<Crossings::Corner> FacetSides::first_corners(bool below) {

@@ -25,10 +25,11 @@ class FacetSides {
 public:
     /// `cubes` are those of the mesh, `other` the occupied ones of the other mesh, `near` the
     /// facets whose boxes meet these, in order. `fates`: of these, where some have an equal; their
-    /// crossings are not known, and they are listed by their fates.
+    /// crossings are not known, and they are listed by their fates. `threads`: 1, or 0 for as many
+    /// as there are here.
     FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
                const CubeSet& other, std::span<const std::uint32_t> near,
-               std::span<const EqualFacets::Fate> fates);
+               std::span<const EqualFacets::Fate> fates, std::uint32_t threads);
 
     /// The facets that nothing crosses and that lie below the other mesh's facets, where `below`,
     /// or above them; in order. `operand` has been numbered by `crossings`; `outer_below`: far out
@@ -55,6 +56,8 @@ private:
     [[nodiscard]] std::uint32_t node_of(std::uint32_t point);
     [[nodiscard]] std::uint32_t root(std::uint32_t node);
     void join(std::uint32_t a, std::uint32_t b);
+    void flatten();
+    [[nodiscard]] Side side_of_joined(std::uint32_t point) const;
     [[nodiscard]] bool set_side(std::uint32_t node, Side side);
     [[nodiscard]] bool has_equal(std::size_t near) const {
         return !fates_.empty() && fates_[near] != EqualFacets::Fate::Own;
@@ -75,6 +78,7 @@ private:
     const CubeSet& other_;
     std::span<const std::uint32_t> near_;
     std::span<const EqualFacets::Fate> fates_;
+    std::uint32_t threads_;
     std::vector<std::uint8_t> is_crossed_;  // of the near facets
     std::vector<Run> runs_;
     std::vector<std::uint32_t> first_run_;  // by row

@@ -57,6 +57,9 @@ bool is_below_far_out(const SolidState& solid, const Crossings::Operand& operand
     return (winding_far_out(solid) == operand.open) == operand.is_open_below();
 }
 
+// As ParallelParts counts them.
+std::uint32_t threads_if(bool parallel) { return parallel ? 0 : 1; }
+
 // Both, at the same time where the search is done by several threads.
 template <class First, class Second>
 void do_both(bool parallel, const First& first, const Second& second) {
@@ -113,8 +116,8 @@ struct CubesOfBoth {
         for (int slabs = slabs_for(two.larger()); !are_useful(); slabs = std::max(slabs / 2, 4)) {
             grid.emplace(two.common, slabs);
             do_both(
-                parallel, [&] { cubes[0].emplace(*grid, *two.meshes[0]); },
-                [&] { cubes[1].emplace(*grid, *two.meshes[1]); });
+                parallel, [&] { cubes[0].emplace(*grid, *two.meshes[0], threads_if(parallel)); },
+                [&] { cubes[1].emplace(*grid, *two.meshes[1], threads_if(parallel)); });
         }
     }
     [[nodiscard]] bool are_useful() const {
@@ -264,7 +267,8 @@ std::optional<TwoLists> facets_beside(const TwoMeshes& two, const CubeGrid& grid
         const Crossings::Operand& other = crossings.operands[1 - i];
         const std::span<const Fate> fates =
             found.equal ? std::span<const Fate>(found.equal->fates[i]) : std::span<const Fate>();
-        FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i], fates);
+        FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i], fates,
+                         threads_if(parallel));
         facets[i] = sides.uncrossed(crossings, i, is_below_far_out(*solids[1 - i], other),
                                     other.is_open_below(), *two.meshes[1 - i]);
         if (facets[i] && !crossings.special.empty())
@@ -315,8 +319,8 @@ std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
     const auto of_cubes = memory.hold(cubes[0]->bytes() + cubes[1]->bytes());
     TwoLists near;
     do_both(
-        parallel, [&] { near[0] = cubes[0]->facets_in(cubes[1]->cubes()); },
-        [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes()); });
+        parallel, [&] { near[0] = cubes[0]->facets_in(cubes[1]->cubes(), threads_if(parallel)); },
+        [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes(), threads_if(parallel)); });
     const auto of_near = memory.hold((near[0].size() + near[1].size()) * sizeof(std::uint32_t));
     PairsOfMeshes pairs(two, near, options, memory, parallel, crossings);
     for (const bool recognises_equal : {true, false}) {

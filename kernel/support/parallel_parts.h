@@ -13,6 +13,7 @@
 
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/task_group.h>
 #include <trisect/kernel/support/thread_pool.h>
 
@@ -89,6 +90,13 @@ private:
     std::size_t count_;
 };
 
+/// One part for each thread at most: where a part costs something by itself.
+[[nodiscard]] inline ParallelParts parts_by_thread(std::size_t size, std::uint32_t threads,
+                                                   std::size_t least) {
+    const std::size_t slots = threads != 0 ? threads : threads_here();
+    return {size, threads, std::max(least, (size + slots - 1) / slots)};
+}
+
 /// Resizes a vector of simple values. Memory that is touched for the first time is made ready by
 /// the system page by page, which takes longer than all else; so several threads touch some of it.
 template <class T>
@@ -96,7 +104,7 @@ void resize_on_threads(std::vector<T>& values, std::size_t size, std::uint32_t t
     static_assert(std::is_trivially_copyable_v<T>);
     constexpr std::size_t page = 4096;
     constexpr std::size_t least_pages = 64;
-    values.reserve(size);
+    reserve_large(values, size);
     auto* const begin = reinterpret_cast<std::byte*>(values.data() + values.size());
     auto* const end = reinterpret_cast<std::byte*>(values.data() + size);
     if (begin < end) {
