@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "manual_pages.h"
 
+#include <algorithm>
 #include <cctype>
 #include <string_view>
 
@@ -147,6 +148,34 @@ std::string command_page(const CommandTable& table, const CommandEntry& command)
     out += entries(command, false);
     out += ".SH EXIT STATUS\n" + footer_text(table.footer);
     return out + ".SH SEE ALSO\n.BR trisect (1)\n";
+}
+
+std::string ranks_page(const CommandTable& table) {
+    std::string out = header(table, "trisect-mpi");
+    out += ".SH NAME\ntrisect\\-mpi \\- clashes and booleans of trisect on many processes\n";
+    out +=
+        ".SH SYNOPSIS\n.B mpirun\n[\\fIOPTION\\fR]... \\fBtrisect\\-mpi\\fR \\fICOMMAND\\fR\n"
+        "[\\fIARGUMENT\\fR]...\n[\\fIOPTION\\fR]...\n";
+    out +=
+        ".SH DESCRIPTION\nThe commands take the arguments and options of those of\n.BR trisect "
+        "(1)\n"
+        "with the same names, and write the same bytes, on any number of processes. Each "
+        "process has one thread unless \\fB\\-\\-threads\\fR says otherwise. Booleans go in "
+        "slabs, which the processes share; the operands are binary STL or PLY.\n";
+    out += ".SH COMMANDS\n";
+    for (const std::string_view name : {"clash", "union", "intersection", "difference"}) {
+        const auto at = std::ranges::find(table.commands, name, &CommandEntry::name);
+        if (at == table.commands.end()) continue;
+        out += ".TP\n" + bold(name) + "\n" + roff(at->help) + "; see\n.BR trisect\\-" +
+               minus_signs(name) + " (1)\n";
+    }
+    out += ".SH EXIT STATUS\n" + footer_text(table.footer);
+    out +=
+        ".SH EXAMPLES\n.EX\n"
+        "mpirun \\-n 8 trisect\\-mpi clash plant.json \\-o report.json\n"
+        "mpirun \\-n 8 trisect\\-mpi union a.stl b.stl \\-o c.ply \\-\\-max\\-memory 2G\n"
+        ".EE\n.SH SEE ALSO\n.BR trisect (1),\n.BR mpirun (1)\n";
+    return out;
 }
 
 }  // namespace trisect::app

@@ -13,5 +13,7 @@ namespace trisect::app {
 [[nodiscard]] std::string program_page(const CommandTable& table);
 /// trisect-NAME(1).
 [[nodiscard]] std::string command_page(const CommandTable& table, const CommandEntry& command);
+/// trisect-mpi(1): the sub-commands that there are on many processes.
+[[nodiscard]] std::string ranks_page(const CommandTable& table);
 
 }  // namespace trisect::app
