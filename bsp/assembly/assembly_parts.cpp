@@ -155,7 +155,7 @@ void Gatherer::gather(const CellTree& tree) {
     mark_leaves();
     if (defers_) mark_crossed(*tree.crossings);
     number_facets();
-    if (defers_) trace_facets(*tree.crossings, out_, edges_);
+    if (defers_) trace_facets(*tree.crossings, out_, edges_, threads_);
 }
 
 // Facets whose outlines doubles do not decide are left to the parts of the tree; all of them where
@@ -170,7 +170,7 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
     if (meshes.outlined != nullptr) {
         add_outlined_edges(meshes);
     } else {
-        trace_facets(*meshes.crossings, out_, edges_);
+        trace_facets(*meshes.crossings, out_, edges_, threads_);
     }
     if (out_.stats.traced_facets == out_.facets.size()) return;
     needs_tree_ = !meshes.crossings->special.empty();
@@ -421,7 +421,12 @@ void Gatherer::mark_lists() {
 void Gatherer::mark_uncrossed(std::span<const UncrossedFacets> lists) {
     for (const UncrossedFacets& list : lists) {
         FacetMarks& marks = out_.sources[table(list.source)];
-        for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
+        constexpr std::size_t least_part = 16384;
+        ParallelParts(list.facets.size(), threads_, least_part)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (const std::uint32_t f : std::span(list.facets).subspan(begin, end - begin))
+                    marks.set_present(f, list.flipped);
+            });
     }
 }
 

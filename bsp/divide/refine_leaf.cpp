@@ -17,10 +17,12 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <trisect/bsp/cells/packed_box.h>
 #include <trisect/bsp/cells/trace/axis_trace.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/stack_arena.h>
 #include <trisect/kernel/support/task_group.h>
 #include <trisect/kernel/support/thread_pool.h>
@@ -58,11 +60,21 @@ struct Cut {
     int first_above = 0;
 };
 
+/// Memory of one thread.
+struct Scratch {
+    StackArena arena;
+    std::vector<PackedBox> cut;  // of the list that is divided, what crosses the splitting plane
+};
+
+// Smaller lists are not worth a thread.
+constexpr std::size_t parallel_list = 32768;
+
 /// Halves one leaf.
 class Halving {
 public:
-    Halving(const CellNode& leaf, const Cell& cell)
+    Halving(const CellNode& leaf, const Cell& cell, std::uint32_t threads)
         : leaf_(leaf),
+          threads_(threads),
           source_(*leaf.polygons().whole_source()),
           frame_(Frame::covering(source_.box().intersected(cell.lattice_box()))) {
         root_.cell = cell;
@@ -73,7 +85,7 @@ public:
     [[nodiscard]] std::shared_ptr<const CellNode> halved() {
         if (source_.box().intersected(root_.cell.lattice_box()).is_empty()) return nullptr;
         list_facets();
-        return split(root_, 1);
+        return split(root_, 1, scratch_);
     }
 
 private:
@@ -82,21 +94,25 @@ private:
     [[nodiscard]] PackedBox packed_facet(std::uint32_t facet) const;
     [[nodiscard]] std::optional<Cut> longest(const ListInCell& list, int shortest) const;
     [[nodiscard]] std::optional<std::array<ListInCell, 2>> divided(const ListInCell& list,
-                                                                   const Cut& cut);
+                                                                   const Cut& cut,
+                                                                   Scratch& scratch) const;
     [[nodiscard]] std::optional<KnownPoint> reference_beyond(const ListInCell& list,
                                                              const Cell& cell, int axis,
                                                              std::int64_t splitter,
                                                              std::int64_t direction) const;
-    [[nodiscard]] std::shared_ptr<const CellNode> split(const ListInCell& list, int level);
-    [[nodiscard]] CellRef node_of(const ListInCell& list, int level);
-    [[nodiscard]] CellRef leaf_of(const ListInCell& list);
+    [[nodiscard]] std::shared_ptr<const CellNode> split(const ListInCell& list, int level,
+                                                        Scratch& scratch) const;
+    [[nodiscard]] std::array<CellRef, 2> nodes_of(const std::array<ListInCell, 2>& halves,
+                                                  int level, Scratch& scratch) const;
+    [[nodiscard]] CellRef node_of(const ListInCell& list, int level, Scratch& scratch) const;
+    [[nodiscard]] CellRef leaf_of(const ListInCell& list, Scratch& scratch) const;
 
     const CellNode& leaf_;
+    std::uint32_t threads_;
     const Source& source_;
     Frame frame_;
-    StackArena arena_;
+    Scratch scratch_;
     ListInCell root_;
-    std::vector<PackedBox> cut_;  // of the list that is divided, what crosses the splitting plane
 };
 
 PackedBox Halving::packed_facet(std::uint32_t facet) const {
@@ -108,32 +124,41 @@ PackedBox Halving::packed_facet(std::uint32_t facet) const {
 // Every corner of a mesh is rounded once.
 void Halving::list_all_facets() {
     const LatticeMesh& mesh = source_.mesh();
-    const auto mark = arena_.mark();
-    auto* points = arena_.take<PackedBox>(mesh.points.size());
-    if (source_.is_whole()) {
-        for (std::size_t i = 0; i < mesh.points.size(); ++i)
-            points[i] = packed_point<true>(frame_, mesh.points[i]);
-    } else {
-        for (std::size_t i = 0; i < mesh.points.size(); ++i)
-            points[i] = packed_point<false>(frame_, mesh.points[i]);
-    }
-    for (std::size_t f = 0; f < root_.contained.size(); ++f) {
-        const auto& t = mesh.triangles[f];
-        root_.contained[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
-        root_.contained[f].id = static_cast<std::uint32_t>(f);
-    }
-    arena_.release(mark);
+    const auto mark = scratch_.arena.mark();
+    auto* points = scratch_.arena.take<PackedBox>(mesh.points.size());
+    ParallelParts(mesh.points.size(), threads_, parallel_list)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            if (source_.is_whole()) {
+                for (std::size_t i = begin; i < end; ++i)
+                    points[i] = packed_point<true>(frame_, mesh.points[i]);
+            } else {
+                for (std::size_t i = begin; i < end; ++i)
+                    points[i] = packed_point<false>(frame_, mesh.points[i]);
+            }
+        });
+    ParallelParts(root_.contained.size(), threads_, parallel_list)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f) {
+                const auto& t = mesh.triangles[f];
+                root_.contained[f] = box_of_three(points[t[0]], points[t[1]], points[t[2]]);
+                root_.contained[f].id = static_cast<std::uint32_t>(f);
+            }
+        });
+    scratch_.arena.release(mark);
 }
 
 void Halving::list_facets() {
     const PolygonList& polygons = leaf_.polygons();
     const std::size_t contained = polygons.contained();
-    auto* entries = arena_.take<PackedBox>(polygons.size());
+    auto* entries = scratch_.arena.take<PackedBox>(polygons.size());
     root_.contained = {entries, contained};
     root_.crossing = {entries + contained, polygons.size() - contained};
     if (polygons.has_all_facets()) return list_all_facets();
-    for (std::size_t i = 0; i < polygons.size(); ++i)
-        entries[i] = packed_facet(polygons.facets()[i]);
+    const std::span<const std::uint32_t> facets = polygons.facets();
+    ParallelParts(polygons.size(), threads_, parallel_list)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) entries[i] = packed_facet(facets[i]);
+        });
 }
 
 // The middle of the longest extent; nothing when none is `shortest` positions long.
@@ -179,7 +204,10 @@ std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, cons
 
 // Both halves of a list; nothing when no reference point is found. Every contained entry is written
 // to the front and to the end of the room, which are advanced by the outcome of the comparisons.
-std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list, const Cut& cut) {
+std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list, const Cut& cut,
+                                                          Scratch& scratch) const {
+    StackArena& arena = scratch.arena;
+    std::vector<PackedBox>& cut_entries = scratch.cut;
     const auto q = static_cast<std::int16_t>(cut.first_above);
     const auto minus_q = static_cast<std::int16_t>(-cut.first_above);
     const auto is_below = [&](const PackedBox& e) { return e.lo[cut.axis] < q; };
@@ -198,15 +226,15 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
         if (!moved) return std::nullopt;
         out[i].reference = *moved;
     }
-    cut_.clear();
-    auto* room = arena_.take<PackedBox>(list.contained.size());
+    cut_entries.clear();
+    auto* room = arena.take<PackedBox>(list.contained.size());
     auto* below = room;
     auto* above = room + list.contained.size();
     for (const PackedBox& e : list.contained) {
         const bool b = is_below(e);
         const bool a = is_above(e);
         if (b && a) [[unlikely]] {
-            cut_.push_back(e);
+            cut_entries.push_back(e);
             continue;
         }
         copy(e, below);
@@ -217,51 +245,67 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
     out[0].contained = {room, below};
     out[1].contained = {above, room + list.contained.size()};
     for (std::size_t i = 0; i < 2; ++i) {
-        auto* entries = arena_.take<PackedBox>(cut_.size() + list.crossing.size());
-        auto* end = std::copy(cut_.begin(), cut_.end(), entries);
+        auto* entries = arena.take<PackedBox>(cut_entries.size() + list.crossing.size());
+        auto* end = std::copy(cut_entries.begin(), cut_entries.end(), entries);
         end = std::ranges::copy_if(list.crossing, end, [&](const PackedBox& e) {
                   return i == 0 ? is_below(e) : is_above(e);
               }).out;
-        arena_.shrink(end);
+        arena.shrink(end);
         out[i].crossing = {entries, end};
     }
     return out;
 }
 
-std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level) {
+std::shared_ptr<const CellNode> Halving::split(const ListInCell& list, int level,
+                                               Scratch& scratch) const {
     const auto cut = longest(list, level == 1 ? 1 : least_extent);
     if (!cut) return nullptr;
-    const auto mark = arena_.mark();
-    const auto halves = divided(list, *cut);
+    const auto mark = scratch.arena.mark();
+    const auto halves = divided(list, *cut, scratch);
     std::shared_ptr<const CellNode> node;
     // Both halves nearly as large as the whole: a splitting plane that separates nothing.
     const std::size_t most = list.size() - list.size() / 16;
     if (halves && ((*halves)[0].size() <= most || (*halves)[1].size() <= most)) {
         const std::int64_t splitter = (*halves)[0].cell.hi[cut->axis];
-        CellRef below = node_of((*halves)[0], level);
-        CellRef above = node_of((*halves)[1], level);
+        auto [below, above] = nodes_of(*halves, level, scratch);
         node = CellNode::split(static_cast<int>(cut->axis), splitter, std::move(below),
                                std::move(above));
     }
-    arena_.release(mark);
+    scratch.arena.release(mark);
     return node;
 }
 
-CellRef Halving::node_of(const ListInCell& list, int level) {
-    if (level < levels_at_once && list.size() >= refinable_leaf)
-        if (auto node = split(list, level + 1)) return {std::move(node), false};
-    return leaf_of(list);
+std::array<CellRef, 2> Halving::nodes_of(const std::array<ListInCell, 2>& halves, int level,
+                                         Scratch& scratch) const {
+    std::array<CellRef, 2> out;
+    if (threads_ != 1 && std::min(halves[0].size(), halves[1].size()) >= parallel_list) {
+        both_at_once(
+            [&] {
+                Scratch own;
+                out[1] = node_of(halves[1], level, own);
+            },
+            [&] { out[0] = node_of(halves[0], level, scratch); });
+    } else {
+        for (std::size_t i = 0; i < 2; ++i) out[i] = node_of(halves[i], level, scratch);
+    }
+    return out;
 }
 
-CellRef Halving::leaf_of(const ListInCell& list) {
-    const auto mark = arena_.mark();
-    auto* facets = arena_.take<std::uint32_t>(list.size());
+CellRef Halving::node_of(const ListInCell& list, int level, Scratch& scratch) const {
+    if (level < levels_at_once && list.size() >= refinable_leaf)
+        if (auto node = split(list, level + 1, scratch)) return {std::move(node), false};
+    return leaf_of(list, scratch);
+}
+
+CellRef Halving::leaf_of(const ListInCell& list, Scratch& scratch) const {
+    const auto mark = scratch.arena.mark();
+    auto* facets = scratch.arena.take<std::uint32_t>(list.size());
     auto* end = facets;
     for (const auto& part : {list.contained, list.crossing})
         for (const PackedBox& e : part) *end++ = e.id;
     PolygonList polygons = PolygonList::whole_facets(source_, leaf_.polygons().flipped(),
                                                      {facets, end}, list.contained.size());
-    arena_.release(mark);
+    scratch.arena.release(mark);
     return {CellNode::leaf(std::move(polygons), list.reference.at, list.reference.winding,
                            leaf_.is_mixed()),
             false};
@@ -269,12 +313,12 @@ CellRef Halving::leaf_of(const ListInCell& list) {
 
 }  // namespace
 
-const CellNode* refined(const CellNode& leaf, const Cell& cell) {
+const CellNode* refined(const CellNode& leaf, const Cell& cell, std::uint32_t threads) {
     if (const CellNode* done = leaf.refinement()) return done;
     const PolygonList& polygons = leaf.polygons();
     if (polygons.whole_source() == nullptr || polygons.whole_source()->is_half_space())
         return nullptr;
-    return leaf.refine([&] { return Halving(leaf, cell).halved(); });
+    return leaf.refine([&] { return Halving(leaf, cell, threads).halved(); });
 }
 
 namespace {
@@ -284,7 +328,7 @@ void refine_below(const CellNode& node, const Cell& cell, bool parallel) {
     const CellNode* at = &node;
     if (at->is_leaf()) {
         if (at->size() < refinable_leaf) return;
-        at = refined(*at, cell);
+        at = refined(*at, cell, parallel ? 0 : 1);
         if (at == nullptr) return;
     }
     const auto below = [&](int i) {

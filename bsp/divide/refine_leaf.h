@@ -17,8 +17,10 @@ inline constexpr std::size_t refinable_leaf = 512;
 
 /// The leaf's two halves as a node with children, made on first use and kept with the leaf. The
 /// splitting planes depend on the leaf and its cell only. Nothing when halving does not separate
-/// the polygons. Safe to call from several threads at once.
-[[nodiscard]] const CellNode* refined(const CellNode& leaf, const Cell& cell);
+/// the polygons. Safe to call from several threads at once. `threads`: 1, or 0 for as many as there
+/// are here; the outcome does not depend on it.
+[[nodiscard]] const CellNode* refined(const CellNode& leaf, const Cell& cell,
+                                      std::uint32_t threads = 1);
 
 /// Refines all large leaves below a node, those of refinements too. `threads` as in
 /// EvaluateOptions.

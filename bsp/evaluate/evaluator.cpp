@@ -68,6 +68,42 @@ constexpr std::uint64_t parallel_polygons = 4096;
 // A leaf that outnumbers all others in its cell so many times is refined for good.
 constexpr std::uint64_t outnumbering = 4;
 
+// A measure of what is to be done: polygons beside those of the largest operand, which is shared as
+// it is where nothing meets it, and leaves that may be refined.
+class WorkMeasure {
+public:
+    void add(std::uint64_t size, bool is_refinable) {
+        total_ += size;
+        largest_ = std::max(largest_, size);
+        if (is_refinable) refinable_ += size;
+    }
+    [[nodiscard]] std::uint64_t work() const {
+        constexpr std::uint64_t of_one = 16;  // nodes of the largest operand around a polygon
+        const std::uint64_t others = total_ - largest_;
+        return others == 0 ? 0 : std::max(refinable_, std::min(total_, of_one * others));
+    }
+
+private:
+    std::uint64_t total_ = 0;
+    std::uint64_t largest_ = 0;
+    std::uint64_t refinable_ = 0;
+};
+
+bool is_refinable(const CellNode& node) { return node.is_leaf() && node.refinement() == nullptr; }
+
+std::uint64_t work_in(std::span<const CellOperand> operands) {
+    WorkMeasure measure;
+    for (const CellOperand& o : operands)
+        measure.add(o.size(), !o.is_list && is_refinable(*o.node));
+    return measure.work();
+}
+
+std::uint64_t work_in(const SolidStates& solids) {
+    WorkMeasure measure;
+    for (const auto& s : solids) measure.add(s->root().node->size(), is_refinable(*s->root().node));
+    return measure.work();
+}
+
 class Worker;
 
 // What the threads of one evaluation share.
@@ -476,7 +512,7 @@ std::optional<SplittingPlane> splitter_of_trees(const CellTask& task) {
 }
 
 // A leaf of a solid that outnumbers everything else in the cell is refined for good.
-void refine_large(CellTask& task) {
+void refine_large(CellTask& task, std::uint32_t threads) {
     const std::uint64_t total = task.size();
     for (CellOperand& o : task.operands) {
         if (o.is_list || !o.node->is_leaf()) continue;
@@ -484,7 +520,7 @@ void refine_large(CellTask& task) {
         if (o.node->refinement() == nullptr &&
             (n < refinable_leaf || n < outnumbering * (total - n)))
             continue;
-        if (const CellNode* node = refined(*o.node, task.cell)) o.node = node;
+        if (const CellNode* node = refined(*o.node, task.cell, threads)) o.node = node;
     }
 }
 
@@ -521,7 +557,7 @@ Worker::Children Worker::children_of(const CellTask& task, const SplittingPlane&
 }
 
 std::optional<CellRef> Worker::divide(CellTask& task) {
-    refine_large(task);
+    refine_large(task, threads());
     std::optional<SplittingPlane> splitter = splitter_of_trees(task);
     lists_.make(task, splitter, threads());
     if (!splitter) {
@@ -582,7 +618,10 @@ CellRef Worker::solve_children(const CellTask& task, const SplittingPlane& split
             if (o.is_list) listed += o.count;
     const auto held = shared_.memory.hold(listed * sizeof(PackedBox));
     std::array<CellRef, 2> results;
-    if (shared_.parallel && std::min(children[0].size(), children[1].size()) >= parallel_polygons) {
+    const auto is_worth_a_thread = [](const CellTask& c) {
+        return work_in(c.operands) >= parallel_polygons;
+    };
+    if (shared_.parallel && std::ranges::all_of(children, is_worth_a_thread)) {
         SharedFailure& failure = shared_.failure;
         fork_join([&] { failure.guard([&] { results[1] = shared_.worker().solve(children[1]); }); },
                   [&] { failure.guard([&] { results[0] = deep_solve(children[0]); }); });
@@ -657,11 +696,9 @@ Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& sol
     if (cell == nullptr) crossings = crossings_of(*formula, solids);
     Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false,
                   crossings ? &*crossings : nullptr};
-    std::uint64_t polygons = 0;
-    for (const auto& s : solids) polygons += s->root().node->size();
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
-    shared.parallel =
-        options.threads != 1 && options.budget == nullptr && polygons >= 2 * parallel_polygons;
+    shared.parallel = options.threads != 1 && options.budget == nullptr &&
+                      work_in(solids) >= 2 * parallel_polygons;
     Evaluation result;
     if (shared.parallel) {
         try {

@@ -20,79 +20,57 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/assembly/traced/facet_outline.h>
-#include <trisect/bsp/cells/shift/shifted_pairs.h>
+#include <trisect/bsp/assembly/traced/facet_tracing.h>
+#include <trisect/bsp/assembly/traced/operand_table.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/ordered_parts.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
 namespace {
 
-// Which operand a facet belongs to, of many: by a table of about twice as many equal ranges of
-// facets as there are operands, most of which are in one or two.
-class OperandTable {
-public:
-    explicit OperandTable(const std::vector<Crossings::Operand>& operands) : operands_(operands) {
-        const std::uint64_t end = operands.back().first;
-        while (end >> shift_ > 2 * operands.size()) ++shift_;
-        std::uint32_t at = 0;
-        for (std::uint64_t number = 0; number <= end; number += std::uint64_t{1} << shift_) {
-            while (at + 1 < operands.size() && operands[at + 1].first <= number) ++at;
-            ranges_.push_back(at);
-        }
-        ranges_.push_back(static_cast<std::uint32_t>(operands.size() - 1));
-    }
-    [[nodiscard]] std::size_t operator()(std::uint32_t number) const {
-        const std::size_t range = std::min(std::size_t{number >> shift_}, ranges_.size() - 2);
-        const auto first = operands_.begin() + ranges_[range];
-        const auto last = operands_.begin() + ranges_[range + 1] + 1;
-        const auto next =
-            std::ranges::upper_bound(first, last, number, {}, &Crossings::Operand::first);
-        return static_cast<std::size_t>(next - operands_.begin()) - 1;
-    }
+// Fewer are not worth a part.
+constexpr std::size_t least_facets = 256;
 
-private:
-    const std::vector<Crossings::Operand>& operands_;
-    std::vector<std::uint32_t> ranges_;  // the operand of the first facet of each; then the last
-    unsigned shift_ = 0;
-};
-
-class Tracer final : ExactOutline {
+// Names what is traced. Names belong to one thread, and are given in the order of the facets.
+class Tracer {
 public:
     Tracer(const Crossings& crossings, BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
         : crossings_(crossings), operand_of_(crossings.operands), parts_(parts), edges_(edges) {}
 
-    void run() {
+    void run(std::uint32_t threads) {
         find_marks();
         ends_.assign(crossings_.pairs.size(), {-1, -1});
         edges_of_.assign(crossings_.pairs.size(), {-1, -1});
         planes_.assign(parts_.facets.size(), -1);
-        const auto& pairs = crossings_.pairs;
-        const auto& by_second = crossings_.by_second;
-        std::size_t first = 0;
-        std::size_t second = 0;
-        auto uncertain = crossings_.uncertain.begin();
-        for (const std::uint32_t facet : crossings_.shown) {
-            while (first < pairs.size() && pairs[first].facets[0] < facet) ++first;
-            while (second < pairs.size() && pairs[by_second[second]].facets[1] < facet) ++second;
-            sides_.clear();
-            for (; first < pairs.size() && pairs[first].facets[0] == facet; ++first)
-                sides_.push_back({static_cast<std::uint32_t>(first), 0});
-            for (; second < pairs.size() && pairs[by_second[second]].facets[1] == facet; ++second)
-                sides_.push_back({by_second[second], 1});
-            while (uncertain != crossings_.uncertain.end() && *uncertain < facet) ++uncertain;
-            if (uncertain == crossings_.uncertain.end() || *uncertain != facet) look_at(facet);
+        const ParallelParts parts(crossings_.shown.size(), threads, least_facets);
+        if (parts.count() == 1) {
+            FacetTracing(crossings_, operand_of_, marks_)
+                .run(0, crossings_.shown.size(), [&](const TracedFacet& f) { add(f); });
+        } else {
+            trace_in_parts(parts.count(), threads);
         }
         for (const std::uint32_t facet : crossings_.special)
             if (!std::ranges::binary_search(crossings_.shown, facet)) add_whole(facet);
     }
 
 private:
-    // A pair, and which of its facets is looked at.
-    struct Side {
-        std::uint32_t pair = 0;
-        std::uint32_t side = 0;
-    };
+    // Some threads trace while this one gives names.
+    void trace_in_parts(std::size_t count, std::uint32_t threads) {
+        std::vector<TracedFacets> traced(count);
+        const std::size_t size = crossings_.shown.size();
+        const auto trace = [&](std::size_t part) {
+            FacetTracing(crossings_, operand_of_, marks_)
+                .run(size * part / count, size * (part + 1) / count,
+                     [&](const TracedFacet& f) { traced[part].add(f); });
+        };
+        const auto name = [&](std::size_t part) {
+            traced[part].for_each([&](const TracedFacet& f) { add(f); });
+            traced[part] = {};
+        };
+        for_each_in_order(count, threads, trace, name);
+    }
 
     // Nothing is left of a source without marks.
     void find_marks() {
@@ -105,28 +83,17 @@ private:
         }
     }
 
-    void look_at(std::uint32_t number) {
-        const std::size_t operand = operand_of_(number);
+    void add(const TracedFacet& traced) {
+        traced_ = traced;
+        const std::size_t operand = operand_of_(traced.number);
         const Crossings::Operand& o = crossings_.operands[operand];
         FacetMarks* const marks = marks_[operand];
-        const std::uint32_t facet = number - o.first;
-        if (marks == nullptr || !marks->takes_part(facet, o.inside_above) ||
-            marks->is_worked(facet, !o.inside_above))
-            return;
-        const Source* const source = marks->source();
-        special_ = std::ranges::binary_search(crossings_.special, number) ? number : none;
-        if (!list_segments() || !trace(*source, facet)) return;
+        const std::uint32_t facet = traced.number - o.first;
         add_edges(*marks, facet, o.inside_above);
         marks->set_traced(facet);
         ++parts_.stats.traced_facets;
     }
 
-    // Of a half-space the facet is the whole plane.
-    bool trace(const Source& source, std::uint32_t facet) {
-        return source.is_half_space() ? outline_.trace_section(source.support(facet), segments_)
-                                      : outline_.trace(corners_of(source, facet), segments_,
-                                                       special_ != none ? this : nullptr);
-    }
     // A facet that something touches and nothing crosses.
     void add_whole(std::uint32_t number) {
         const std::size_t operand = crossings_.operand_of(number);
@@ -154,106 +121,33 @@ private:
         ++parts_.stats.traced_facets;
     }
 
-    [[nodiscard]] int order_on(std::size_t edge, std::uint32_t a, std::uint32_t b) const override {
-        const std::size_t operand = crossings_.operand_of(special_);
-        const Source& own = *marks_[operand]->source();
-        const std::uint32_t facet = special_ - crossings_.operands[operand].first;
-        const auto start = static_cast<int>(edge);
-        return order_along_shifted(own.corner(facet, start), own.corner(facet, (start + 1) % 3),
-                                   operand == 1, cutter_corners(a), cutter_corners(b),
-                                   crossings_.shift);
-    }
-    [[nodiscard]] Crossings::Corner first_corner() const override {
-        const auto at = std::ranges::lower_bound(crossings_.shown, special_);
-        return crossings_.first_corners[static_cast<std::size_t>(at - crossings_.shown.begin())];
-    }
-    [[nodiscard]] FacetCorners cutter_corners(std::uint32_t segment) const {
-        const Side& s = sides_[segment];
-        const std::uint32_t number = crossings_.pairs[s.pair].facets[1 - s.side];
-        const std::size_t operand = crossings_.operand_of(number);
-        return corners_of(*marks_[operand]->source(), number - crossings_.operands[operand].first);
-    }
-
-    static std::array<const LatticePoint*, 3> corners_of(const Source& source,
-                                                         std::uint32_t facet) {
-        return {&source.corner(facet, 0), &source.corner(facet, 1), &source.corner(facet, 2)};
-    }
-
-    // False when nothing is left of an operand that crosses the facet. Those that come first in
-    // pairs are in the order of their numbers, and so are those that come second; the facet's own
-    // operand is between them, so each operand comes once.
-    bool list_segments() {
-        segments_.resize(sides_.size());
-        std::size_t n = 0;
-        std::uint32_t cutters = 0;
-        std::uint32_t begin = 0;  // of the facets of the last one
-        std::uint32_t end = 0;
-        const Crossings::Operand* operand = nullptr;
-        const Source* source = nullptr;
-        for (const Side& s : sides_) {
-            const FacetCrossing& c = crossings_.pairs[s.pair];
-            const std::uint32_t number = c.facets[1 - s.side];
-            if (number < begin || number >= end) {
-                const std::size_t i = operand_of_(number);
-                if (marks_[i] == nullptr) return false;
-                operand = &crossings_.operands[i];
-                source = marks_[i]->source();
-                begin = operand->first;
-                end = begin + source->facet_count();
-                ++cutters;
-            }
-            OutlineSegment& segment = segments_[n++];
-            segment.cutter = cutters - 1;
-            segment.open_below = operand->is_open_below();
-            set_ends(c, s.side, *source, number - begin, segment);
-        }
-        return true;
-    }
-
-    static void set_ends(const FacetCrossing& c, std::uint32_t side, const Source& source,
-                         std::uint32_t facet, OutlineSegment& segment) {
-        // Within the facet, to the left of the product of the normals, is what lies below the
-        // other facet for the first one, and above it for the second one.
-        const bool along = segment.open_below == (side == 0);
-        for (std::size_t k = 0; k < 2; ++k) {
-            const FacetCrossing::End& end = c.ends[along ? k : 1 - k];
-            segment.at[k] = &end.at;
-            const bool is_own = end.of_second == (side == 1);
-            segment.edge[k] = static_cast<std::int8_t>(is_own ? end.edge : -1);
-            if (is_own) continue;
-            const std::uint64_t v = source.corner_index(facet, end.edge);
-            const std::uint64_t w = source.corner_index(facet, end.edge == 2 ? 0 : end.edge + 1);
-            segment.through[k] = std::min(v, w) << 32 | std::max(v, w);
-        }
-    }
-
     void add_edges(FacetMarks& marks, std::uint32_t facet, bool flipped) {
-        if (outline_.edges().empty()) return;
+        if (traced_.edges.empty()) return;
         ref_ = {marks.source(), nullptr, facet, false, false};
-        own_ = edge_of(sides_[0].pair, sides_[0].side);
-        own_support_ = support_of(sides_[0].pair, sides_[0].side);
+        own_ = edge_of(traced_.segments[0].pair, traced_.segments[0].side);
+        own_support_ = support_of(traced_.segments[0].pair, traced_.segments[0].side);
         corners_ = {-1, -1, -1};
-        meetings_.assign(outline_.meetings().size(), -1);
+        meetings_.assign(traced_.meetings.size(), -1);
         const std::int32_t number = marks.number_of_worked(facet, flipped);
-        for (const TracedEdge& e : outline_.edges()) {
+        for (const TracedEdge& e : traced_.edges) {
             PointId from = point_of(e.from);
             PointId to = point_of(e.to);
             if (flipped) std::swap(from, to);
             edges_.push_back({from, to, number, line_of(e)});
         }
         if (flipped) {
-            const auto n = static_cast<std::ptrdiff_t>(outline_.edges().size());
+            const auto n = static_cast<std::ptrdiff_t>(traced_.edges.size());
             std::reverse(edges_.end() - n, edges_.end());
         }
         BoundaryFacet& f = parts_.facets[as_index(number)];
         f.support = own_support_;
-        f.is_special = special_ != none;
+        f.is_special = traced_.is_special;
         f.parts = f.is_special ? 2 : 1;
     }
 
     WorkEdge line_of(const TracedEdge& e) {
         if (e.edge >= 0) return {own_ + e.edge, false};
-        return {support_of_cutter(e.segment), !segments_[e.segment].open_below};
+        return {support_of_cutter(e.segment), !traced_.segments[e.segment].open_below};
     }
 
     PointId point_of(const OutlinePoint& p) {
@@ -269,7 +163,7 @@ private:
                 break;
         }
         PointId& point = meetings_[p.place];
-        if (point < 0) point = meeting(outline_.meetings()[p.place]);
+        if (point < 0) point = meeting(traced_.meetings[p.place]);
         return point;
     }
 
@@ -279,27 +173,28 @@ private:
     }
 
     PlaneId support_of_cutter(std::uint32_t segment) {
-        const Side& s = sides_[segment];
+        const TracedSegment& s = traced_.segments[segment];
         return support_of(s.pair, 1 - s.side);
     }
 
     // Where one segment ends and the next one begins the same edge pierces the facet.
     PointId end_of(std::uint32_t segment, std::size_t end) {
         PointId& point = known_end(segment, end);
-        if (point < 0) point = name_end(sides_[segment].pair, end_in_pair(segment, end));
-        if (end == 1 && outline_.next(segment) != FacetOutline::none)
-            known_end(outline_.next(segment), 0) = point;
+        if (point < 0) point = name_end(traced_.segments[segment].pair, end_in_pair(segment, end));
+        const std::uint32_t next = traced_.segments[segment].next;
+        if (end == 1 && next != FacetOutline::none) known_end(next, 0) = point;
         return point;
     }
 
     // Ends of segments come in the order of their direction.
     [[nodiscard]] std::size_t end_in_pair(std::uint32_t segment, std::size_t end) const {
-        const bool along = segments_[segment].open_below == (sides_[segment].side == 0);
+        const TracedSegment& s = traced_.segments[segment];
+        const bool along = s.open_below == (s.side == 0);
         return along ? end : 1 - end;
     }
 
     PointId& known_end(std::uint32_t segment, std::size_t end) {
-        return ends_[sides_[segment].pair][end_in_pair(segment, end)];
+        return ends_[traced_.segments[segment].pair][end_in_pair(segment, end)];
     }
 
     PointId name_end(std::uint32_t pair, std::size_t k) {
@@ -350,12 +245,8 @@ private:
     std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
     std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
     std::vector<PlaneId> planes_;                   // the same by number of the facet
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
     // Of one facet:
-    std::uint32_t special_ = none;  // its number if it is in special position
-    std::vector<Side> sides_;
-    std::vector<OutlineSegment> segments_;
-    FacetOutline outline_;
+    TracedFacet traced_;
     std::array<PointId, 3> corners_{};  // where they were requested
     std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;
@@ -366,8 +257,8 @@ private:
 }  // namespace
 
 void trace_facets(const Crossings& crossings, BoundaryParts& parts,
-                  std::vector<BoundaryEdge>& edges) {
-    Tracer(crossings, parts, edges).run();
+                  std::vector<BoundaryEdge>& edges, std::uint32_t threads) {
+    Tracer(crossings, parts, edges).run(threads);
 }
 
 }  // namespace trisect::detail
