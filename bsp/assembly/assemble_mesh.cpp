@@ -3,8 +3,8 @@
 // To triangles, facet by facet. Nearly all facets of a large result pass through. So corners get
 // their numbers first, in the order of their sources: which of them are in use is one pass over the
 // marks, their coordinates are one pass over the points, and then a facet is three look-ups in a
-// table. Vertices that cuts have made come after them, as they are met. A hash map from vertices to
-// numbers costs more than everything else here together.
+// table. Vertices that cuts have made come after them, as triangles have them. A hash map from
+// vertices to numbers costs more than everything else here together.
 //
 // Facets that did not pass through are cut into triangles before anything is written. Then it is
 // known how many triangles come before any facet, and several threads write parts of the mesh.
@@ -18,17 +18,14 @@
 #include <variant>
 #include <vector>
 
-#include <trisect/brep/face/rounded_polygon.h>
-#include <trisect/brep/face/small_polygon.h>
-#include <trisect/brep/triangulate.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/assembly/assembly_parts.h>
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
-#include <trisect/bsp/assembly/parts/face_loops.h>
+#include <trisect/bsp/assembly/parts/facet_cutter.h>
 #include <trisect/bsp/cells/solid_state.h>
-#include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -43,6 +40,10 @@ using Triangle = std::array<std::uint32_t, 3>;
 // Fewer points are not worth a part of their own, nor fewer groups of eight facets.
 constexpr std::size_t least_points = 16384;
 constexpr std::size_t least_group_count = 4096;
+
+// Nor are fewer vertices that cuts have made, or facets that were cut.
+constexpr std::size_t least_made = 512;
+constexpr std::size_t least_cut = 256;
 
 // By source: the numbers of its corners in the mesh.
 using CornerTables = std::vector<std::vector<std::uint32_t>>;
@@ -86,19 +87,15 @@ public:
                std::uint32_t threads)
         : lattice_(solid.lattice),
           unit_(lattice_.to_double(1)),
-          inverse_unit_(1 / unit_),
           threads_(threads),
           parts_(parts),
           bench_(parts.bench),
-          tables_(std::move(tables)),
-          loops_(parts.bench) {}
+          tables_(std::move(tables)) {}
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         number_.assign(bench_.point_count(), no_number);
-        number_corners(edges);
-        worked_.reserve(3 * edges.size());
-        for (rest_ = edges; !rest_.empty();) cut_worked();
-        worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
+        const std::vector<PointId> made = number_corners(edges);
+        cut_facets(edges, made);
         resize_on_threads(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size(), threads_);
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
         number_faces();
@@ -153,22 +150,23 @@ private:
         return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
     }
 
-    // The corners of the result's facets, source by source, in the order of their vertices.
-    void number_corners(std::span<const BoundaryEdge> edges) {
-        std::size_t made = 0;  // at most: vertices that are no corners
+    // The corners of the result's facets, source by source, in the order of their vertices. Returns
+    // the vertices that are none.
+    std::vector<PointId> number_corners(std::span<const BoundaryEdge> edges) {
+        std::vector<PointId> made;
         for (const BoundaryEdge& e : edges) {
             if (std::exchange(number_[as_index(e.from)], in_use) != no_number) continue;
             if (bench_.is_corner(e.from)) {
                 corner_of(e.from) = in_use;
             } else {
-                ++made;
+                made.push_back(e.from);
             }
         }
         const auto used_in = [](std::span<const std::uint32_t> part) {
             return part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
         };
         std::vector<std::vector<std::size_t>> counts;  // of every part of a table
-        std::size_t count = made;
+        std::size_t count = made.size();
         for (const auto& table : tables_) {
             const ParallelParts parts(table.size(), threads_, least_points);
             auto& of_parts = counts.emplace_back(parts.count());
@@ -177,10 +175,11 @@ private:
             });
             count = std::accumulate(of_parts.begin(), of_parts.end(), count);
         }
-        mesh_.points.reserve(count);
+        reserve_large(mesh_.points, count);
         for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
         for (const BoundaryEdge& e : edges)
-            number_[as_index(e.from)] = bench_.is_corner(e.from) ? corner_of(e.from) : no_number;
+            if (bench_.is_corner(e.from)) number_[as_index(e.from)] = corner_of(e.from);
+        return made;
     }
 
     // Numbers and coordinates for the corners in use; `counts` of them in each part.
@@ -208,10 +207,6 @@ private:
         return tables_[parts_.table_of(source)][v];
     }
 
-    void add_worked(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        worked_.insert(worked_.end(), {a, b, c});
-    }
-
     // A power of two times a double, which is what Lattice::to_double is unless the power
     // underflows.
     [[nodiscard]] Point3d in_units(const std::array<double, 3>& p, double unit) const {
@@ -224,48 +219,72 @@ private:
         return in_units(p.doubles(), unit);
     }
 
-    std::uint32_t add_point(const Point3d& p) {
-        mesh_.points.push_back(p);
-        return static_cast<std::uint32_t>(mesh_.points.size() - 1);
+    // Cuts facets that do not pass through into triangles. `made`: vertices that are no corners.
+    void cut_facets(std::span<const BoundaryEdge> edges, std::span<const PointId> made) {
+        std::vector<std::size_t> begins;  // of the edges of each
+        for (std::size_t i = 0; i < edges.size(); ++i)
+            if (i == 0 || edges[i].facet != edges[i - 1].facet) begins.push_back(i);
+        const std::vector<Point3d> rounded = rounded_coordinates(made);
+        const MadeVertices vertices{number_, rounded, unit_};
+        const ParallelParts parts(begins.size(), threads_, least_cut);
+        std::vector<CutFacets> cut(parts.count());
+        begins.push_back(edges.size());
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            FacetCutter cutter(parts_, vertices);
+            cut[part].corners.reserve(3 * (begins[end] - begins[begin]));
+            for (std::size_t i = begin; i < end; ++i) {
+                check_stop();
+                cutter.cut(edges.subspan(begins[i], begins[i + 1] - begins[i]), cut[part]);
+            }
+        });
+        number_made(cut, made, rounded);
     }
 
-    // Cuts the facet whose edges come next into triangles.
-    void cut_worked() {
-        const BoundaryFacet& f = parts_.facets[as_index(rest_[0].facet)];
-        check_stop();
-        std::size_t n = 1;
-        while (n < rest_.size() && rest_[n].facet == rest_[0].facet) ++n;
-        const std::size_t table = parts_.table_of(f.source);
-        worked_facets_.push_back({{table, place_of(f.facet, f.flipped)}, worked_.size()});
-        loops_.set_region(f.support, f.flipped, rest_.first(n));
-        rest_ = rest_.subspan(n);
-        if (loops_.loop_count() == 1 && is_all_of(f, loops_.loop(0))) {
-            const Triangle t = whole_facet(table, f.facet, f.flipped);
-            add_worked(t[0], t[1], t[2]);
-        } else if (loops_.has_holes()) {
-            cut_large(f, 0, loops_.loop_count());
-        } else {
-            for (std::size_t l = 0; l < loops_.loop_count(); ++l) cut_loop(f, l);
-        }
+    // Numbers them in this order, too, for the time being.
+    std::vector<Point3d> rounded_coordinates(std::span<const PointId> made) {
+        std::vector<Point3d> out(made.size());
+        ParallelParts(made.size(), threads_, least_made)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    number_[as_index(made[i])] = static_cast<std::uint32_t>(i);
+                    out[i] = in_units(bench_.nearest(made[i]), unit_);
+                }
+            });
+        return out;
     }
 
-    void cut_loop(const BoundaryFacet& f, std::size_t l) {
-        const auto loop = loops_.loop(l);
-        if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
-            cut_large(f, l, l + 1);
-        } else {
-            cut_small(loop);
+    // In the order in which triangles have them, which depends on the exact points alone. All are
+    // corners of triangles.
+    void number_made(std::span<const CutFacets> cut, std::span<const PointId> made,
+                     std::span<const Point3d> rounded) {
+        std::vector<std::uint32_t> at(made.size(), no_number);
+        std::size_t corners = 0;
+        for (const CutFacets& part : cut) corners += part.corners.size();
+        worked_.reserve(corners);
+        for (const CutFacets& part : cut) {
+            for (const CutFacets::Facet& f : part.facets)
+                worked_facets_.push_back(
+                    {{f.source, place_of(f.facet, f.flipped)}, worked_.size() + f.begin});
+            for (const PointId p : part.corners) {
+                std::uint32_t number = number_[as_index(p)];
+                if (!bench_.is_corner(p)) {
+                    std::uint32_t& known = at[number];
+                    if (known == no_number) {
+                        known = static_cast<std::uint32_t>(mesh_.points.size());
+                        mesh_.points.push_back(rounded[number]);
+                    }
+                    number = known;
+                }
+                worked_.push_back(number);
+            }
         }
+        worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
+        for (std::size_t i = 0; i < made.size(); ++i) number_[as_index(made[i])] = at[i];
     }
 
     static Triangle numbered(const Triangle& corners, bool flipped, const std::uint32_t* numbers) {
         return {numbers[corners[0]], numbers[corners[flipped ? 2 : 1]],
                 numbers[corners[flipped ? 1 : 2]]};
-    }
-
-    [[nodiscard]] Triangle whole_facet(std::size_t t, std::uint32_t facet, bool flipped) const {
-        return numbered(parts_.sources[t].source()->mesh().triangles[facet], flipped,
-                        tables_[t].data());
     }
 
     // The first facet that was cut, from one of a source on.
@@ -336,123 +355,17 @@ private:
             });
     }
 
-    // A facet may have been touched in vain; then the result must not differ from that of one that
-    // was not.
-    bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const {
-        return loop.size() == 3 && std::ranges::all_of(loop, [&](PointId p) {
-                   if (!bench_.is_corner(p)) return false;
-                   const auto [source, v] = bench_.corner_name(p);
-                   if (source != f.source) return false;
-                   const auto& corners = source->mesh().triangles[f.facet];
-                   return std::ranges::find(corners, v) != corners.end();
-               });
-    }
-
-    std::uint32_t vertex(PointId p) {
-        std::uint32_t& at = number_[as_index(p)];
-        if (at == no_number) at = add_point(in_units(bench_.nearest(p), unit_));
-        return at;
-    }
-
-    // In a loop of one region all passages of a vertex have one name.
-    static bool is_simple(std::span<const PointId> loop) {
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                if (loop[i] == loop[j]) return false;
-        return true;
-    }
-
-    // Vertices are rounded correctly when they get their numbers, and all corners of a loop are
-    // used; so turns are those of rounded corners, and few are left for integers.
-    void cut_small(std::span<const PointId> loop) {
-        const PlaneProjection::Axes axes = loops_.axes();
-        std::array<std::uint32_t, small_polygon_limit> vertices;
-        rounded_.clear();
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            vertices[i] = vertex(loop[i]);
-            add_rounded(loop[i], vertices[i], axes);
-        }
-        const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            const int s = rounded_.turn(a, b, c);
-            return s != 0 ? s : exact_turn(loop[a], loop[b], loop[c], axes);
-        };
-        // A loop starts at its smallest vertex.
-        const auto first_corner = [] { return std::uint32_t{0}; };
-        const bool done = cut_small_polygon(loop.size(), orientation, first_corner,
-                                            [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-                                                add_worked(vertices[a], vertices[b], vertices[c]);
-                                            });
-        TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
-    }
-
-    // In units of the lattice. Multiples of at least 2^-330 of these units do not underflow in
-    // those of the mesh, which differ by a power of two, unless that is extreme.
-    void add_rounded(PointId p, std::uint32_t vertex, PlaneProjection::Axes axes) {
-        const auto u = static_cast<std::size_t>(axes.u);
-        const auto v = static_cast<std::size_t>(axes.v);
-        if (unit_ < 0x1p-600 || bench_.is_lattice(p)) {
-            const Approximation& at = bench_.approximation(p);
-            return rounded_.add(at.c[u], at.c[v], at.error);
-        }
-        const Point3d& at = mesh_.points[vertex];
-        rounded_.add_nearest(at[u] * inverse_unit_, at[v] * inverse_unit_);
-    }
-
-    [[nodiscard]] int exact_turn(PointId a, PointId b, PointId c,
-                                 PlaneProjection::Axes axes) const {
-        return PlaneProjection::exact_orientation(bench_.homogeneous(a), bench_.homogeneous(b),
-                                                  bench_.homogeneous(c), axes);
-    }
-
-    // Loops [first, end) as one region.
-    void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end) {
-        points_.clear();
-        ids_.clear();
-        outline_.clear();
-        local_.resize(bench_.point_count(), no_number);
-        for (std::size_t l = first; l < end; ++l) {
-            auto& loop = outline_.emplace_back();
-            for (const PointId p : loops_.loop(l)) {
-                if (local_[as_index(p)] == no_number) {
-                    local_[as_index(p)] = static_cast<std::uint32_t>(ids_.size());
-                    ids_.push_back(p);
-                    points_.push_back(bench_.point(p));
-                }
-                loop.push_back(local_[as_index(p)]);
-            }
-        }
-        for (const PointId p : ids_) local_[as_index(p)] = no_number;
-        const Plane& support = bench_.plane_at(f.support);
-        for (const IndexTriangle& t :
-             triangulate(f.flipped ? support.flipped() : support, points_, outline_)) {
-            // New vertices get their numbers in this order, whatever order a compiler evaluates
-            // arguments in.
-            const std::uint32_t corner2 = vertex(ids_[t[2]]);
-            const std::uint32_t corner1 = vertex(ids_[t[1]]);
-            const std::uint32_t corner0 = vertex(ids_[t[0]]);
-            add_worked(corner0, corner1, corner2);
-        }
-    }
-
     Lattice lattice_;
     double unit_;
-    double inverse_unit_;
     std::uint32_t threads_;
     const BoundaryParts& parts_;
     const Workbench& bench_;
     CornerTables tables_;
     PolygonMesh mesh_;
-    std::span<const BoundaryEdge> rest_;  // of facets not yet cut
-    std::vector<Worked> worked_facets_;   // in their order; then one more where they end
-    std::vector<std::uint32_t> worked_;   // three corners a triangle
+    std::vector<Worked> worked_facets_;  // in their order; then one more where they end
+    std::vector<std::uint32_t> worked_;  // three corners a triangle
     std::size_t whole_written_ = 0;
     std::vector<std::uint32_t> number_;  // by PointId
-    FaceLoops loops_;
-    RoundedPolygon rounded_;
-    std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
-    std::vector<PointId> ids_;
-    std::vector<Point> points_;
-    std::vector<IndexLoop> outline_;
 };
 
 // The corners of facets that pass through: vertices, whatever the others do there.
@@ -510,6 +423,7 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         find_corners();
     }
     if (stats != nullptr) *stats = parts.stats;
+    if (threads != 1) parts.bench.share();
     MeshWriter writer(solid, parts, std::move(tables), threads);
     PolygonMesh mesh = writer.write(edges);
     if (details.names != nullptr) *details.names = writer.names();
@@ -517,12 +431,14 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     return mesh;
 }
 
-// How many facets a form lists.
+// How many facets a form lists, and how often these cross.
 struct ListedFacets {
-    std::size_t operator()(const CellTree& tree) const { return tree.root.node->size(); }
+    std::size_t operator()(const CellTree& tree) const {
+        return tree.root.node->size() + (tree.crossings ? tree.crossings->pairs.size() : 0);
+    }
     std::size_t operator()(const PrismOutlines& prisms) const { return prisms.whole->size(); }
     std::size_t operator()(const UndividedMeshes& meshes) const {
-        std::size_t facets = 0;
+        std::size_t facets = meshes.crossings->pairs.size();
         for (const UncrossedFacets& list : meshes.uncrossed) facets += list.facets.size();
         return facets;
     }

@@ -31,6 +31,7 @@ void Workbench::end_points() {
 }
 
 void Workbench::forget_made_planes() {
+    adding_ = nullptr;
     for (PlaneRecord& p : planes_) p.place = -1;
     made_.free();
 }
@@ -51,11 +52,22 @@ PlaneId Workbench::add_plane(const PlaneName& name, PlaneId support) {
 
 const Plane& Workbench::make_plane(PlaneId id) const {
     const PlaneRecord& r = planes_[as_index(id)];
-    r.place = made_.add(r.name.is_edge()
+    const Plane plane = r.name.is_edge()
                             ? r.name.source()->edge_plane(
                                   r.name.facet, static_cast<int>(r.name.kind), plane_at(r.support))
-                            : r.name.plane());
+                            : r.name.plane();
+    if (adding_ == nullptr) {
+        r.place = made_.add(plane);
+        return made_.at(r.place);
+    }
+    const std::lock_guard lock(*adding_);
+    if (r.place < 0) std::atomic_ref(r.place).store(made_.add(plane), std::memory_order_release);
     return made_.at(r.place);
+}
+
+void Workbench::share() {
+    made_.reserve(planes_.size());
+    if (adding_ == nullptr) adding_ = std::make_unique<std::mutex>();
 }
 
 // The edge planes of a facet are found by one key and have ids in a row.

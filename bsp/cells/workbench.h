@@ -4,12 +4,14 @@
 //
 // Planes are found by name, so that the symbolic stage of a predicate is a comparison of ids;
 // planes found to be the same point set share a class. Points are corners of sources or triples of
-// planes. A workbench belongs to one thread: planes are made on demand.
+// planes. A workbench belongs to one thread, since planes are made on demand, until it is shared.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -49,7 +51,9 @@ public:
     PlaneId plane(const PlaneName& name);
     /// Made on first use: of most names only the name is ever used.
     [[nodiscard]] const Plane& plane_at(PlaneId id) const {
-        const std::int32_t at = planes_[as_index(id)].place;
+        // Free on processors of today.
+        const std::int32_t at =
+            std::atomic_ref(planes_[as_index(id)].place).load(std::memory_order_acquire);
         return at >= 0 ? made_.at(at) : make_plane(id);
     }
     /// Of the plane of an edge: the support of its facet.
@@ -116,6 +120,8 @@ public:
     void reserve(std::size_t planes, std::size_t points);
     /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
+    /// From now on several threads may call what is const. Nothing else may be called any more.
+    void share();
     /// Gives back the planes that were made so far; they are made again on demand. Ends references
     /// to them.
     void forget_made_planes();
@@ -177,6 +183,8 @@ private:
             return count_++;
         }
         [[nodiscard]] std::size_t count() const { return as_index(count_); }
+        /// For so many in all the table of blocks stays where it is.
+        void reserve(std::size_t count) { blocks_.reserve(count / block_size + 1); }
         void clear() { count_ = 0; }
         void free() {
             clear();
@@ -206,6 +214,7 @@ private:
 
     std::vector<PlaneRecord, PoolAllocator<PlaneRecord>> planes_;
     mutable MadePlanes made_;
+    std::unique_ptr<std::mutex> adding_;  // to these, where the bench is shared
     std::vector<PointRecord, PoolAllocator<PointRecord>> points_;
     FlatMap plane_ids_;
     FlatMap corner_ids_;

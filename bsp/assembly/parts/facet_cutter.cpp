@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/assembly/parts/facet_cutter.h>
+
+#include <algorithm>
+#include <array>
+
+#include <trisect/brep/face/small_polygon.h>
+#include <trisect/kernel/contract.h>
+#include <trisect/kernel/support/as_index.h>
+
+namespace trisect::detail {
+
+namespace {
+
+constexpr std::uint32_t not_listed = static_cast<std::uint32_t>(-1);
+
+// In a loop of one region all passages of a vertex have one name.
+bool is_simple(std::span<const PointId> loop) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (loop[i] == loop[j]) return false;
+    return true;
+}
+
+}  // namespace
+
+void FacetCutter::cut(std::span<const BoundaryEdge> edges, CutFacets& out) {
+    const BoundaryFacet& f = parts_.facets[as_index(edges[0].facet)];
+    const std::size_t table = parts_.table_of(f.source);
+    out.facets.push_back({table, f.facet, f.flipped, out.corners.size()});
+    loops_.set_region(f.support, f.flipped, edges);
+    if (loops_.loop_count() == 1 && is_all_of(f, loops_.loop(0))) {
+        add_all_of(f, loops_.loop(0), out.corners);
+    } else if (loops_.has_holes()) {
+        cut_large(f, 0, loops_.loop_count(), out.corners);
+    } else {
+        for (std::size_t l = 0; l < loops_.loop_count(); ++l) cut_loop(f, l, out.corners);
+    }
+}
+
+// A facet may have been touched in vain; then the result must not differ from that of one that was
+// not.
+bool FacetCutter::is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const {
+    return loop.size() == 3 && std::ranges::all_of(loop, [&](PointId p) {
+               if (!bench_.is_corner(p)) return false;
+               const auto [source, v] = bench_.corner_name(p);
+               if (source != f.source) return false;
+               const auto& corners = source->mesh().triangles[f.facet];
+               return std::ranges::find(corners, v) != corners.end();
+           });
+}
+
+// In the order that the facet has.
+void FacetCutter::add_all_of(const BoundaryFacet& f, std::span<const PointId> loop,
+                             std::vector<PointId>& out) const {
+    const std::uint32_t first = f.source->mesh().triangles[f.facet][0];
+    std::size_t i = 0;
+    while (bench_.corner_name(loop[i]).second != first) ++i;
+    for (std::size_t k = 0; k < 3; ++k) out.push_back(loop[(i + k) % 3]);
+}
+
+void FacetCutter::cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<PointId>& out) {
+    const auto loop = loops_.loop(l);
+    if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
+        cut_large(f, l, l + 1, out);
+    } else {
+        cut_small(loop, out);
+    }
+}
+
+// Vertices are rounded correctly, and all corners of a loop are used; so turns are those of rounded
+// corners, and few are left for integers.
+void FacetCutter::cut_small(std::span<const PointId> loop, std::vector<PointId>& out) {
+    const PlaneProjection::Axes axes = loops_.axes();
+    rounded_.clear();
+    for (const PointId p : loop) add_rounded(p, axes);
+    const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const int s = rounded_.turn(a, b, c);
+        return s != 0 ? s : exact_turn(loop[a], loop[b], loop[c], axes);
+    };
+    // A loop starts at its smallest vertex.
+    const auto first_corner = [] { return std::uint32_t{0}; };
+    const bool done = cut_small_polygon(loop.size(), orientation, first_corner,
+                                        [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                                            out.insert(out.end(), {loop[a], loop[b], loop[c]});
+                                        });
+    TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
+}
+
+// In units of the lattice. Multiples of at least 2^-330 of these units do not underflow in those of
+// the mesh, which differ by a power of two, unless that is extreme.
+void FacetCutter::add_rounded(PointId p, PlaneProjection::Axes axes) {
+    const auto u = static_cast<std::size_t>(axes.u);
+    const auto v = static_cast<std::size_t>(axes.v);
+    if (made_.unit < 0x1p-600 || bench_.is_lattice(p)) {
+        const Approximation& at = bench_.approximation(p);
+        return rounded_.add(at.c[u], at.c[v], at.error);
+    }
+    const Point3d& at = made_.coordinates[made_.number_of[as_index(p)]];
+    const double inverse_unit = 1 / made_.unit;
+    rounded_.add_nearest(at[u] * inverse_unit, at[v] * inverse_unit);
+}
+
+int FacetCutter::exact_turn(PointId a, PointId b, PointId c, PlaneProjection::Axes axes) const {
+    return PlaneProjection::exact_orientation(bench_.homogeneous(a), bench_.homogeneous(b),
+                                              bench_.homogeneous(c), axes);
+}
+
+// Loops [first, end) as one region.
+void FacetCutter::cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
+                            std::vector<PointId>& out) {
+    points_.clear();
+    ids_.clear();
+    outline_.clear();
+    local_.resize(bench_.point_count(), not_listed);
+    for (std::size_t l = first; l < end; ++l) {
+        auto& loop = outline_.emplace_back();
+        for (const PointId p : loops_.loop(l)) {
+            if (local_[as_index(p)] == not_listed) {
+                local_[as_index(p)] = static_cast<std::uint32_t>(ids_.size());
+                ids_.push_back(p);
+                points_.push_back(bench_.point(p));
+            }
+            loop.push_back(local_[as_index(p)]);
+        }
+    }
+    for (const PointId p : ids_) local_[as_index(p)] = not_listed;
+    const Plane& support = bench_.plane_at(f.support);
+    for (const IndexTriangle& t :
+         triangulate(f.flipped ? support.flipped() : support, points_, outline_))
+        out.insert(out.end(), {ids_[t[0]], ids_[t[1]], ids_[t[2]]});
+}
+
+}  // namespace trisect::detail

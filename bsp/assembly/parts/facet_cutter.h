@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// FacetCutter: triangles of the facets of a result that do not pass through.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <trisect/brep/face/rounded_polygon.h>
+#include <trisect/brep/triangulate.h>
+#include <trisect/bsp/assembly/parts/boundary_edges.h>
+#include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/bsp/assembly/parts/face_loops.h>
+#include <trisect/kernel/lattice.h>
+
+namespace trisect::detail {
+
+/// Vertices that are no corners of a source, rounded.
+struct MadeVertices {
+    std::span<const std::uint32_t> number_of;  ///< by PointId
+    std::span<const Point3d> coordinates;
+    double unit = 1;  ///< of the lattice
+};
+
+/// Triangles of consecutive facets.
+struct CutFacets {
+    struct Facet {
+        std::size_t source = 0;  ///< its number
+        std::uint32_t facet = 0;
+        bool flipped = false;
+        std::size_t begin = 0;  ///< of its triangles among the corners
+    };
+    std::vector<Facet> facets;
+    std::vector<PointId> corners;  ///< three a triangle
+};
+
+/// Cuts facets into triangles; keeps its memory. Several may work on one boundary at once when its
+/// workbench is shared (Workbench::share).
+class FacetCutter {
+public:
+    FacetCutter(const BoundaryParts& parts, const MadeVertices& made)
+        : parts_(parts), bench_(parts.bench), made_(made), loops_(parts.bench) {}
+
+    /// Appends the triangles of one facet, of which these are all edges. They depend on the exact
+    /// points alone, not on the order of the edges.
+    void cut(std::span<const BoundaryEdge> edges, CutFacets& out);
+
+private:
+    [[nodiscard]] bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const;
+    void add_all_of(const BoundaryFacet& f, std::span<const PointId> loop,
+                    std::vector<PointId>& out) const;
+    void cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<PointId>& out);
+    void cut_small(std::span<const PointId> loop, std::vector<PointId>& out);
+    void add_rounded(PointId p, PlaneProjection::Axes axes);
+    [[nodiscard]] int exact_turn(PointId a, PointId b, PointId c, PlaneProjection::Axes axes) const;
+    void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
+                   std::vector<PointId>& out);
+
+    const BoundaryParts& parts_;
+    const Workbench& bench_;
+    MadeVertices made_;
+    FaceLoops loops_;
+    RoundedPolygon rounded_;
+    std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
+    std::vector<PointId> ids_;
+    std::vector<Point> points_;
+    std::vector<IndexLoop> outline_;
+};
+
+}  // namespace trisect::detail
