@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lists of the numbers in a range that meet a condition, made by several threads.
+// Lists of numbers that meet a condition.
+// Several threads make parts of a list.
 #pragma once
 
 #include <algorithm>

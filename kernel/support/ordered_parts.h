@@ -26,7 +26,7 @@ void for_each_in_order(std::size_t count, std::uint32_t threads, const Make& mak
     const auto states = std::make_unique<std::atomic<int>[]>(count);
     FirstFailure failure;
     const StopScope* const scope = stop_scope_of_thread;
-    // False where somebody else has begun it.
+    // False where another thread has begun it.
     const auto begin = [&](std::size_t part) {
         int waiting = Waiting;
         if (!states[part].compare_exchange_strong(waiting, Begun)) return false;
