@@ -29,6 +29,7 @@
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/certified_rounding.h>
+#include <trisect/bsp/edited_formula.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/contact_certificate.h>

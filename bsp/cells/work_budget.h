@@ -12,6 +12,8 @@
 
 namespace trisect::detail {
 
+struct ChangedBox;
+
 /// The work of one evaluation under a limit, on one thread.
 struct WorkBudget {
     StopScope::WorkLeft left;
@@ -21,9 +23,10 @@ struct WorkBudget {
 /// Without a LimitedEvaluation nothing limits it.
 struct EvaluateSettings : EvaluateOptions {
     std::uint32_t splitting_offset = usual_splitting_offset;
-    const StopScope* scope = nullptr;  ///< its flags stop all threads
-    WorkBudget* budget = nullptr;      ///< null: no limit
-    std::uint64_t max_memory = 0;      ///< 0: no limit
+    const StopScope* scope = nullptr;    ///< its flags stop all threads
+    WorkBudget* budget = nullptr;        ///< null: no limit
+    std::uint64_t max_memory = 0;        ///< 0: no limit
+    const ChangedBox* change = nullptr;  ///< the rest is that of a set before (edited_formula.h)
 };
 
 /// Puts an evaluation under the scopes of the calling thread while it lives, and counts its work

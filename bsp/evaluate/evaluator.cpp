@@ -46,6 +46,7 @@
 #include <trisect/bsp/divide/shared_list.h>
 #include <trisect/bsp/divide/slab.h>
 #include <trisect/bsp/evaluate/arranger_pool.h>
+#include <trisect/bsp/evaluate/changed_box.h>
 #include <trisect/bsp/evaluate/contained_cells.h>
 #include <trisect/bsp/evaluate/formula_halves.h>
 #include <trisect/bsp/evaluate/root_task.h>
@@ -156,6 +157,7 @@ private:
     // For ParallelParts: as many as the arena has, or the calling one.
     [[nodiscard]] std::uint32_t threads() const { return shared_.parallel ? 0 : 1; }
 
+    [[nodiscard]] std::optional<CellRef> choose_formula(CellTask& task);
     void prune(CellTask& task);
     void drop(CellTask& task);
     template <class IsLeft>
@@ -204,6 +206,31 @@ private:
 
 Worker& Shared::worker() {
     return workers.local([&] { return std::make_unique<Worker>(*this); });
+}
+
+// --- Step 0: what a cell has from before.
+
+// Cells are those of the tree of before, down to its leaves, and to cells beside the box.
+std::optional<CellRef> Worker::choose_formula(CellTask& task) {
+    const ChangedBox& change = *options_.change;
+    const auto window = std::ranges::find(task.operands, change.window, &CellOperand::slot);
+    if (window == task.operands.end()) return std::nullopt;  // chosen already
+    const auto before = std::ranges::find(task.operands, change.before, &CellOperand::slot);
+    Box around;  // the cell, which may have no lattice point
+    for (std::size_t k = 0; k < 3; ++k) {
+        around.lo[k] = lattice_below(task.cell.lo[k]);
+        around.hi[k] = lattice_below(task.cell.hi[k]) + 1;
+    }
+    const bool is_beside = around.intersected(change.box).is_empty();
+    if (!is_beside && !before->is_list && !before->node->is_leaf()) {
+        const SplittingPlane splitter{before->node->axis(), before->node->splitter()};
+        lists_.make(task, splitter, threads());
+        Children children = children_of(task, splitter);
+        return solve_children(task, splitter, children);
+    }
+    values_[static_cast<std::size_t>(change.window)] = is_beside ? 0 : 1;
+    drop(task);
+    return std::nullopt;
 }
 
 // --- Step 1: prune.
@@ -644,6 +671,8 @@ CellRef Worker::solve(CellTask& task) {
     check_budget(options_, stats);
     shared_.failure.check();
     stats.depth = std::max(stats.depth, task.depth);
+    if (options_.change != nullptr)
+        if (auto cell = choose_formula(task)) return *std::move(cell);
     if (options_.winding == EvaluateOptions::Winding::Positive)
         for (CellOperand& o : task.operands)
             if (take_as_embedded(o, arena_)) ++stats.embedded_cells;
@@ -693,7 +722,7 @@ CellRef solve_root(Shared& shared, const Residual::Ref& formula,
 Evaluation evaluate_formula(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateSettings& options, const Cell* cell) {
     std::optional<Crossings> crossings;
-    if (cell == nullptr) crossings = crossings_of(*formula, solids);
+    if (cell == nullptr && options.change == nullptr) crossings = crossings_of(*formula, solids);
     Shared shared{options, solids.size(), MemoryBudget(options.max_memory), false,
                   crossings ? &*crossings : nullptr};
     // A work budget is counted by one thread, so that it is hit in the same place everywhere.
