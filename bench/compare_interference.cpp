@@ -7,7 +7,10 @@
 // disagrees.
 //
 //     compare_interference [--rounds 3] [--most 2000] [--scene NAME]... [--what QUESTION]...
-//                          [--no-peers]
+//                          [--no-peers] [--trees]
+//
+// With --trees solids are asked by their own trees, too: one made of the mesh, and the result of a
+// boolean where A is one.
 //
 // Questions: collide, coherent, contacts, distance; all of them when none is named.
 // Scenes: see interference_scene.h. Volumes with which FCL copies and refits a whole model for each
@@ -27,6 +30,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/interference_query.h>
@@ -34,6 +38,7 @@
 #include <trisect/bsp/interference/relation/distance_search.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/bsp/interference/relation/quick_relation.h>
+#include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/pose.h>
@@ -113,7 +118,7 @@ public:
     [[nodiscard]] std::optional<double> distance(std::size_t i) override {
         DistanceSearch search(trisect::detail::data_of(a_), home_, trisect::detail::data_of(b_),
                               poses_[i]);
-        search.run();
+        search.run_for_bounds();
         counters.node_tests += search.counters().node_tests;
         counters.triangle_pairs += search.counters().triangle_pairs;
         return search.upper();
@@ -193,12 +198,37 @@ private:
     const Trisect* models_;
 };
 
+// Distances of solids by their own trees; A fresh, or as a boolean left it.
+class OwnTrees : public Peer {
+public:
+    OwnTrees(std::string name, Solid a, const interference_scenes::Scene& scene)
+        : name_(std::move(name)), a_(std::move(a)), b_(Solid::from_mesh(scene.b)) {
+        for (const Placement& p : scene.placements) poses_.push_back(Pose::from_doubles(p));
+    }
+    [[nodiscard]] std::string name() const override { return name_; }
+    [[nodiscard]] double build_seconds() const override { return 0; }
+    [[nodiscard]] bool collide(std::size_t i) override {
+        return trisect::interfere(a_, home_, b_, poses_[i]).relation != trisect::Relation::Disjoint;
+    }
+    [[nodiscard]] std::optional<double> distance(std::size_t i) override {
+        return trisect::boundary_distance(a_, home_, b_, poses_[i])->upper;
+    }
+
+private:
+    std::string name_;
+    Solid a_;
+    Solid b_;
+    Pose home_;
+    std::vector<Pose> poses_;
+};
+
 struct Options {
     int rounds = 3;
     std::size_t most = 2000;
     std::vector<std::string> scenes;
     std::vector<std::string> questions;
     bool peers = true;
+    bool trees = false;
     [[nodiscard]] bool asks(const std::string& question) const {
         return questions.empty() || std::ranges::find(questions, question) != questions.end();
     }
@@ -293,7 +323,13 @@ void follow(const std::string& scene, const Trisect& ours, int rounds) {
 }
 
 void run(const std::string& name, const Options& options) {
-    const auto scene = interference_scenes::make(name, options.most);
+    auto scene = interference_scenes::make(name, options.most);
+    std::optional<Solid> left;
+    if (!scene.tools.empty()) {
+        left = Solid::from_mesh(scene.blank);
+        for (const auto& tool : scene.tools) left = evaluate(*left - Solid::from_mesh(tool));
+        scene.a = left->to_mesh();
+    }
     Trisect ours(scene);
     interference_peers::Peers peers;
     if (options.peers) {
@@ -301,7 +337,12 @@ void run(const std::string& name, const Options& options) {
         interference_peers::add_cgal(peers, scene.a, scene.b, scene.placements);
     }
     Solids solids(ours);
+    OwnTrees fresh("Trisect solids", Solid::from_mesh(scene.a), scene);
+    std::optional<OwnTrees> cut;
+    if (left) cut.emplace("Trisect result", *left, scene);
     std::vector<Peer*> all{&ours, &solids};
+    if (options.trees) all.push_back(&fresh);
+    if (options.trees && cut) all.push_back(&*cut);
     for (const auto& p : peers) all.push_back(p.get());
     const auto ask_all = [&](const std::string& what, const Question& question) {
         if (options.asks(what)) ask(scene, what, all, options.rounds, ours, question);
@@ -327,6 +368,8 @@ Options parse(int argc, char** argv) {
         const std::string word = argv[i];
         if (word == "--no-peers") {
             o.peers = false;
+        } else if (word == "--trees") {
+            o.trees = true;
         } else if (word == "--rounds" && i + 1 < argc) {
             o.rounds = std::atoi(argv[++i]);
         } else if (word == "--most" && i + 1 < argc) {
@@ -338,7 +381,7 @@ Options parse(int argc, char** argv) {
         } else {
             std::fprintf(stderr,
                          "usage: compare_interference [--rounds N] [--most N] [--scene NAME]... "
-                         "[--what QUESTION]... [--no-peers]\n");
+                         "[--what QUESTION]... [--no-peers] [--trees]\n");
             std::exit(2);
         }
     }

@@ -13,6 +13,7 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/kernel/error.h>
 
+#include "clearance_scenes.h"
 #include "scenes/extent.h"
 #include "scenes/rows.h"
 #include "scenes/scenes.h"
@@ -110,6 +111,7 @@ std::vector<std::string> names() {
 }
 
 Scene make(const std::string& name, std::size_t most) {
+    if (auto clear = make_clearance(name, most)) return std::move(*clear);
     if (name == "tori") return tori(name, std::min<std::size_t>(most, 2000));
     if (name == "tori200k") return tori(name, std::min<std::size_t>(most, 500));
     if (name == "screw" || name == "parts")

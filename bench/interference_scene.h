@@ -21,15 +21,19 @@ struct Scene {
     std::vector<interference_peers::Placement> placements;
     /// A motion: no point moves by more than a hundredth of the diameter from one to the next.
     std::vector<interference_peers::Placement> path;
+    /// Where there are any, A is what these leave of `blank`, and `a` is empty until it is made.
+    trisect::PolygonMesh blank{};
+    std::vector<trisect::PolygonMesh> tools{};
 };
 
-/// The names of all scenes.
+/// The names of the scenes that are measured when none is named.
 [[nodiscard]] std::vector<std::string> names();
 
 /// - tori, tori200k: two linked tori R = 1, r = 1/4 of 20,000 and 200,978 triangles, the gap
 ///   between their tubes swinging between +0.05 and -0.01.
 /// - FILE (bear28k, bunny100k, or any mesh file): the mesh against itself, 2,000 random rotations,
 ///   the centres apart by 0.35 to 0.85 of the box's diagonal in a random direction.
+/// - clear:NAME: those of clearance_scenes.h.
 /// - screw, parts: those of apps/scenes/scenes.h with up to 2,000 placements.
 ///
 /// `most` limits the number of placements. \throw trisect::Error when a file is missing.

@@ -113,20 +113,21 @@ bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, d
     for (const auto* t : {&p, &q})
         for (const Vector3& c : *t)
             for (const double v : c) g = std::max(g, std::abs(v));
-    const double wanted = (limit + 4 * error + 0x1p-48 * g) * surely_more;
+    // Squares of what is compared are known up to six roundings.
+    const double wanted = (limit + 4 * error + 0x1p-48 * g) * slightly_more;
+    const double square = wanted * wanted;
+    const auto apart_along = [&](const Vector3& n) {
+        const std::array<double, 3> a{dot(n, p[0]), dot(n, p[1]), dot(n, p[2])};
+        const std::array<double, 3> b{dot(n, q[0]), dot(n, q[1]), dot(n, q[2])};
+        const double gap = std::max(std::min({b[0], b[1], b[2]}) - std::max({a[0], a[1], a[2]}),
+                                    std::min({a[0], a[1], a[2]}) - std::max({b[0], b[1], b[2]}));
+        return gap > 0 && gap * gap > square * dot(n, n);
+    };
     Vector3 centres{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) centres[k] += q[i][k] - p[i][k];
-    for (const Vector3& n : {centres, cross(minus(p[1], p[0]), minus(p[2], p[0])),
-                             cross(minus(q[1], q[0]), minus(q[2], q[0]))}) {
-        const std::array<double, 3> a{dot(n, p[0]), dot(n, p[1]), dot(n, p[2])};
-        const std::array<double, 3> b{dot(n, q[0]), dot(n, q[1]), dot(n, q[2])};
-        const auto [a_low, a_high] = std::minmax({a[0], a[1], a[2]});
-        const auto [b_low, b_high] = std::minmax({b[0], b[1], b[2]});
-        const double gap = std::max(b_low - a_high, a_low - b_high);
-        if (gap > 0 && gap * gap > wanted * wanted * dot(n, n)) return true;
-    }
-    return false;
+    return apart_along(centres) || apart_along(cross(minus(p[1], p[0]), minus(p[2], p[0]))) ||
+           apart_along(cross(minus(q[1], q[0]), minus(q[2], q[0])));
 }
 
 ClosestPoints closest_points(const TriangleCorners& p, const TriangleCorners& q) {

@@ -48,7 +48,7 @@ std::optional<BoundaryDistance> boundary_distance(const InterferenceModel& a, co
                                                   const InterferenceModel& b, const Pose& pose_b) {
     if (a.is_empty() || b.is_empty()) return std::nullopt;
     DistanceSearch search(detail::data_of(a), pose_a, detail::data_of(b), pose_b);
-    search.run();
+    search.run_for_bounds();
     const DistanceSearch::Candidate& best = search.candidates().front();
     BoundaryDistance r;
     r.lower = search.lower();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <trisect/bsp/interference/boxes/obb_pose.h>
+#include <trisect/bsp/interference/relation/bound_queue.h>
 #include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/pair_distance.h>
 #include <trisect/kernel/pose.h>
@@ -31,6 +32,10 @@ public:
     DistanceSearch(const Boundary& a, const Pose& pose_a, const Boundary& b, const Pose& pose_b);
 
     using Candidate = DistanceCandidate;
+    /// Looks for the distance alone: of pairs that are equally near, within the width of the interval,
+    /// one is enough. The interval may be twice as wide for that, and `candidates` are not all that
+    /// may be the closest. What is certainly at `limit` or farther is not looked at.
+    void run_for_bounds(double limit = std::numeric_limits<double>::infinity());
     /// Looks for the closest pair. What is certainly at `limit` or farther is not looked at; with
     /// `stop` the search ends as soon as something is certainly nearer. Triangles of an earlier
     /// answer may be given as a start.
@@ -46,24 +51,27 @@ public:
     [[nodiscard]] const DistanceCounters& counters() const { return counters_; }
 
 private:
-    struct Entry {
-        float bound;
-        ObbId a;
-        ObbId b;
-    };
     struct Arrays {
-        std::vector<Entry> heap;
+        BoundQueue queue;
+        std::vector<BoundedPair> stack;
         std::vector<Candidate> candidates;
         [[nodiscard]] std::size_t bytes() const {
-            return heap.capacity() * sizeof(Entry) + candidates.capacity() * sizeof(Candidate);
+            return queue.bytes() + stack.capacity() * sizeof(BoundedPair) +
+                   candidates.capacity() * sizeof(Candidate);
         }
     };
-    [[nodiscard]] Candidate compare(std::uint32_t a, std::uint32_t b) const {
-        return pairs_->compare(a, b, std::min(upper_, limit_));
-    }
+    void start(double limit);
+    void search();
+    void compare(std::uint32_t a, std::uint32_t b);
     void note(const Candidate& c);
-    void expand(const Entry& e);
-    void push(float bound, ObbId a, ObbId b);
+    [[nodiscard]] bool is_beyond(double least) const {
+        return least > enough_ || least > upper_ || least >= limit_;
+    }
+    [[nodiscard]] bool is_done() const { return upper_ <= 0 || (stop_ && upper_ < limit_); }
+    void descend(const BoundedPair& from);
+    void put(const BoundedPair& pair);
+    void compare_leaves(ObbChild a, ObbChild b);
+    void expand(const BoundedPair& e);
     void finish();
 
     const Boundary* a_;
@@ -74,6 +82,13 @@ private:
     double limit_ = 0;
     double lower_ = 0;
     double upper_ = 0;
+    // What is farther than this is not looked at, since it is as near as the nearest so far, or
+    // farther. `skipped_` is the least that this was.
+    double enough_ = 0;
+    double skipped_ = 0;
+    bool all_ = true;
+    bool stop_ = false;
+    std::uint32_t descents_ = 0;
     Spare<Arrays> arrays_;
     DistanceCounters counters_;
 };

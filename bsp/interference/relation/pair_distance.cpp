@@ -5,6 +5,12 @@
 // eigenvalue of L^T L, which a row's diagonal entry minus the others bounds (Gershgorin); for a
 // rotation that is 1 up to rounding. For a matrix far from that σ >= |det| / |L|² serves.
 //
+// Where A is not turned at all L is a power of two. Where the least and the largest bound are within
+// 2^-44 of each other, triangles are compared in A's lattice and distances multiplied. Entries known
+// within 2^-50 of themselves change L^T L by less than 2^-49 and rounding by 2^-50 of the sum of
+// magnitudes of its terms, which is at most σ² (1 + 2^-40); three such entries, halved by the root,
+// are below 2^-47.
+//
 // Triangles are compared in the world's directions about a corner r of A's: L (p - r) and L (m q +
 // t - r). With row sums of |L| at most R, entries known within 2^-50 of themselves, differences at
 // most g, and δ the error of a difference: errors are below R (δ + u g) + R g (2^-50 + 3 u) < R
@@ -25,8 +31,13 @@ namespace trisect::detail {
 
 namespace {
 
-// A lower bound of |L d| / |d|.
-double least_stretch_of(const std::array<Vector3, 3>& l) {
+// Bounds of |L d| / |d|; the upper one is infinite where L is not nearly a similarity.
+struct Stretch {
+    double least = 0;
+    double most = std::numeric_limits<double>::infinity();
+};
+
+Stretch stretch_of(const std::array<Vector3, 3>& l) {
     double least = std::numeric_limits<double>::infinity();
     double most = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -40,9 +51,12 @@ double least_stretch_of(const std::array<Vector3, 3>& l) {
         least = std::min(least, diagonal - rest);
         most = std::max(most, diagonal + rest);
     }
+    if (most - least <= 0x1p-44 * most)
+        return {std::sqrt(least) * (1 - 0x1p-47), std::sqrt(most) * (1 + 0x1p-47)};
     const double det = std::abs(dot(l[0], cross(l[1], l[2])));
     const double by_det = most > 0 ? (det - 0x1p-45 * most * std::sqrt(most)) / most : 0;
-    return std::max({0.0, least > 0 ? std::sqrt(least) * surely_less : 0.0, by_det * surely_less});
+    return {std::max(
+        {0.0, least > 0 ? std::sqrt(least) * surely_less : 0.0, by_det * surely_less})};
 }
 
 }  // namespace
@@ -65,13 +79,56 @@ PairDistance::PairDistance(const Boundary& a, const Pose& pose_a, const Boundary
         row_ = std::max(row_, row * (1 + 0x1p-48));
     }
     error_ = a.position_error + map_.error_below(b.largest, b.position_error);
-    least_stretch_ = least_stretch_of(stretch_);
+    const Stretch stretch = stretch_of(stretch_);
+    least_ = stretch.least;
+    most_ = stretch.most;
+    if (pose_a.is_translation()) least_ = most_ = std::ldexp(1.0, a.lattice.exponent);
 }
 
 DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double nearest) const {
     const TriangleCorners p = a_->corners_of(i);
     TriangleCorners q = b_->corners_of(j);
     for (auto& corner : q) corner = map_(corner);
+    DistanceCandidate c = most_ < std::numeric_limits<double>::infinity()
+                              ? compare_in_lattice(p, q, nearest)
+                              : compare_in_world(p, q, nearest);
+    c.a = i;
+    c.b = j;
+    if (c.bounds.lower <= 0 && compare_triangles(p, q, error_) == PairVerdict::Crossing) {
+        c.crossing = true;
+        c.bounds = {0, 0};
+    }
+    return c;
+}
+
+DistanceCandidate PairDistance::compare_in_lattice(const TriangleCorners& p,
+                                                   const TriangleCorners& q,
+                                                   double nearest) const {
+    // The origin is A's first corner, as below.
+    TriangleCorners from_p;
+    TriangleCorners from_q;
+    double g = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        from_p[k] = minus(p[k], p[0]);
+        from_q[k] = minus(q[k], p[0]);
+        for (std::size_t i = 0; i < 3; ++i)
+            g = std::max({g, std::abs(from_p[k][i]), std::abs(from_q[k][i])});
+    }
+    const double error = error_ + 0x1p-52 * g;
+    DistanceCandidate c;
+    if (are_certainly_farther(from_p, from_q, nearest / least_ * slightly_more, error)) {
+        c.bounds = {nearest * slightly_more, std::numeric_limits<double>::infinity()};
+        return c;
+    }
+    c.closest = closest_points(from_p, from_q);
+    const DistanceBounds b = certify(from_p, from_q, c.closest, error);
+    c.closest.squared *= least_ * least_;
+    c.bounds = {b.lower * least_ * slightly_less, b.upper * most_ * slightly_more};
+    return c;
+}
+
+DistanceCandidate PairDistance::compare_in_world(const TriangleCorners& p, const TriangleCorners& q,
+                                                 double nearest) const {
     const Vector3 r = p[0];
     double g = 0;
     const auto placed = [&](const Vector3& x) {
@@ -87,18 +144,12 @@ DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double
     }
     const double error = row_ * (1.01 * error_ + 0x1p-49 * g);
     DistanceCandidate c;
-    c.a = i;
-    c.b = j;
     if (are_certainly_farther(in_world_p, in_world_q, nearest, error)) {
         c.bounds = {nearest * slightly_more, std::numeric_limits<double>::infinity()};
         return c;
     }
     c.closest = closest_points(in_world_p, in_world_q);
     c.bounds = certify(in_world_p, in_world_q, c.closest, error);
-    if (c.bounds.lower <= 0 && compare_triangles(p, q, error_) == PairVerdict::Crossing) {
-        c.crossing = true;
-        c.bounds = {0, 0};
-    }
     return c;
 }
 

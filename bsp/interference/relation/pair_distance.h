@@ -37,16 +37,24 @@ public:
     /// From B's lattice into A's.
     [[nodiscard]] const ApproximateMap& map() const { return map_; }
     /// A distance in A's lattice is in the world at least this many times as long.
-    [[nodiscard]] double least_stretch() const { return least_stretch_; }
+    [[nodiscard]] double least_stretch() const { return least_; }
 
 private:
+    [[nodiscard]] DistanceCandidate compare_in_lattice(const TriangleCorners& p,
+                                                       const TriangleCorners& q,
+                                                       double nearest) const;
+    [[nodiscard]] DistanceCandidate compare_in_world(const TriangleCorners& p,
+                                                     const TriangleCorners& q,
+                                                     double nearest) const;
+
     const Boundary* a_;
     const Boundary* b_;
     ApproximateMap map_;
     std::array<std::array<double, 3>, 3> stretch_{};  // differences in A's lattice to the world
     double row_ = 0;                                  // largest sum of a row's magnitudes
     double error_ = 0;                                // of a position of A and one of moved B
-    double least_stretch_ = 0;
+    double least_ = 0;  // a distance in A's lattice is in the world at least so many times as long,
+    double most_ = 0;   // and at most, where this is not infinite: of a similarity
 };
 
 /// The exact squared distance of two triangles of posed models, in the user's units.

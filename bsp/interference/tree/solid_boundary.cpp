@@ -65,7 +65,7 @@ SolidBoundary::SolidBoundary(const Solid& solid) : base_(std::make_unique<const 
 }
 
 SolidBoundary::~SolidBoundary() {
-    constexpr std::size_t most = std::size_t{4} << 20U;  // of large searches nothing is kept
+    constexpr std::size_t most = std::size_t{8} << 20U;  // of large searches nothing is kept
     Memory memory;
     swap_with(memory);
     if (memory.nodes.capacity() == 0 || memory.bytes() > most) return;

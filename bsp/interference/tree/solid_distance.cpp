@@ -6,9 +6,9 @@
 #include <trisect/bsp/interference/relation/distance_search.h>
 #include <trisect/bsp/interference/relation/pair_distance.h>
 #include <trisect/bsp/interference/solid_interference.h>
-#include <trisect/bsp/interference/tree/entity_names.h>
 #include <trisect/bsp/interference/tree/exact_triangles.h>
 #include <trisect/bsp/interference/tree/solid_boundary.h>
+#include <trisect/bsp/interference/tree/solid_places.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/pose/relative_pose.h>
 
@@ -17,39 +17,8 @@ namespace trisect {
 namespace {
 
 using detail::DistanceSearch;
-using detail::PolygonId;
+using detail::in_world;
 using detail::SolidBoundary;
-
-// In the solid's lattice.
-std::array<double, 3> point_on(const SolidBoundary& s, std::uint32_t triangle,
-                               const std::array<double, 3>& weights) {
-    const detail::TriangleCorners c = s.corners_of(triangle);
-    std::array<double, 3> p{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * c[i][k];
-    return p;
-}
-
-Point3d in_world(std::array<double, 3> p, Lattice lattice, const Pose& pose) {
-    for (double& c : p) c = std::ldexp(c, lattice.exponent);
-    const auto f = pose.approximate();
-    Point3d r{};
-    for (std::size_t i = 0; i < 3; ++i)
-        r[i] = f[4 * i] * p[0] + f[4 * i + 1] * p[1] + f[4 * i + 2] * p[2] + f[4 * i + 3];
-    return r;
-}
-
-// The entity that is nearest to a closest point, as far as doubles say: what contains it up to the
-// errors of the search.
-EntityName name_near(const SolidBoundary& s, std::uint32_t triangle,
-                     const std::array<double, 3>& at) {
-    const SolidBoundary::Origin origin = s.origin(triangle);
-    double size = 0;
-    for (const double c : at) size = std::max(size, std::fabs(c));
-    std::vector<PolygonId> on = origin.leaf->polygons_near(at, 0x1p-40 * size, origin.turned);
-    if (on.empty()) on.push_back(origin.polygon());
-    return detail::name_of(detail::place_on(on));
-}
 
 // The exact square of the distance of two polygons.
 class ExactDistances {
@@ -101,7 +70,7 @@ std::optional<NamedDistance> boundary_distance(const Solid& a, const Pose& pose_
     const SolidBoundary boundary_b(b);
     if (boundary_a.is_empty() || boundary_b.is_empty()) return std::nullopt;
     DistanceSearch search(boundary_a, pose_a, boundary_b, pose_b);
-    search.run();
+    search.run_for_bounds();
     const DistanceSearch::Candidate& best = search.candidates().front();
     const auto on_a = point_on(boundary_a, best.a, best.closest.on_p);
     const auto on_b = point_on(boundary_b, best.b, best.closest.on_q);
