@@ -45,6 +45,7 @@
 #include <trisect/bsp/interference/interference_query.h>
 #include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/interference/joint.h>
+#include <trisect/bsp/interference/least_distance.h>
 #include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/interference/moving_points.h>
 #include <trisect/bsp/interference/overlap_certificate.h>

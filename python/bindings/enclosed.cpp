@@ -11,6 +11,7 @@
 
 #include <pybind11/stl.h>
 
+#include <trisect/bsp/interference/least_distance.h>
 #include <trisect/bsp/interference/solid_motion.h>
 
 #include "arrays.h"
@@ -227,9 +228,74 @@ they may touch during `undecided`, and certainly do at no other time.
         .def("__repr__", &contact_text);
 }
 
+EnclosedMotion enclosed_motion_of(const py::object& motion, const char* what) {
+    if (py::isinstance<EnclosedMotion>(motion)) return motion.cast<EnclosedMotion>();
+    if (py::isinstance<Motion>(motion)) return EnclosedMotion(motion.cast<Motion>());
+    throw py::type_error(std::string(what) + ": must be a Motion or an EnclosedMotion");
+}
+
+void bind_least_distance(py::module_& m) {
+    py::class_<LeastDistance>(m, "LeastDistance",
+                              "How near moving solids come to each other, as a proved interval.")
+        .def_readonly("lower", &LeastDistance::lower, "At no time is the distance below this.")
+        .def_readonly("upper", &LeastDistance::upper, "At `time` it is not above this.")
+        .def_readonly("time", &LeastDistance::time)
+        .def_readonly("is_narrow", &LeastDistance::is_narrow,
+                      "Whether the bounds are as close as requested.")
+        .def_property_readonly(
+            "a", [](const LeastDistance& d) { return d.a; },
+            "`EntityName` on the first solid that is so near.")
+        .def_property_readonly(
+            "b", [](const LeastDistance& d) { return d.b; }, "`EntityName` on the second one.")
+        .def_property_readonly(
+            "on_a", [](const LeastDistance& d) { return to_array(d.on_a); },
+            "Float array of shape (3,), near to the closest point of the first solid, in the world.")
+        .def_property_readonly(
+            "on_b", [](const LeastDistance& d) { return to_array(d.on_b); },
+            "The same of the second solid.")
+        .def("__repr__", [](const LeastDistance& d) {
+            return "<LeastDistance between " + std::string(py::repr(py::float_(d.lower))) +
+                   " and " + std::string(py::repr(py::float_(d.upper))) + ">";
+        });
+    m.def(
+        "least_distance",
+        [](const Solid& a, const py::object& motion_a, const Solid& b, const py::object& motion_b,
+           double relative, double absolute) {
+            const EnclosedMotion of_a = enclosed_motion_of(motion_a, "motion_a");
+            const EnclosedMotion of_b = enclosed_motion_of(motion_b, "motion_b");
+            return run([&] { return least_distance(a, of_a, b, of_b, {relative, absolute}); });
+        },
+        py::arg("a"), py::arg("motion_a"), py::arg("b"), py::arg("motion_b"), py::kw_only(),
+        py::arg("relative") = 1e-6, py::arg("absolute") = 0.0,
+        R"(How near two moving solids come to each other, over the whole time.
+
+Parameters
+----------
+a, b : Solid
+motion_a, motion_b : Motion or EnclosedMotion
+    Of the same duration, or one of them stands still.
+relative : float
+    How far apart the bounds may be, as a part of the upper one.
+absolute : float
+    The same in units of length: what is below this need not be told from 0.
+
+Returns
+-------
+LeastDistance or None
+    Proved; None when one of the solids is empty. Of boundaries: of a solid inside of another it is
+    the clearance. Both bounds are 0 where boundaries certainly pass through each other.
+
+Raises
+------
+UsageError
+    For widths out of range, and durations that differ.
+)");
+}
+
 }  // namespace
 
 void bind_enclosed(py::module_& m) {
+    bind_least_distance(m);
     bind_enclosed_motion_type(m);
     bind_enclosed_contact_type(m);
     m.def(

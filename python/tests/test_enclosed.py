@@ -121,3 +121,19 @@ def test_joined_motions():
     assert both.piece_count == 2 and both.pose_at(2) == Pose.from_translation((1, 0, 1))
     with pytest.raises(trisect.UsageError):
         Motion.joined([on, up])
+
+
+def test_least_distance(cube, wall):
+    down = Motion.translation(None, (0, 1, 0))
+    found = trisect.least_distance(wall, Motion(), cube, down, relative=1e-4)
+    assert found.is_narrow and repr(found).startswith("<LeastDistance between ")
+    last = trisect.distance(wall, None, cube, Pose.from_translation((0, 1, 0)))
+    assert found.lower <= last.upper and found.upper - found.lower <= 1e-4 * found.upper
+    turn = EnclosedMotion.turning(Pose.from_translation((1.25, 0, 0.25)), (0, 0, 1), 20)
+    turned = trisect.least_distance(wall, EnclosedMotion(), cube, turn)
+    assert 0 < turned.lower <= turned.upper and turned.time == pytest.approx(1)
+    assert trisect.least_distance(wall, Motion(), Solid(), Motion()) is None
+    with pytest.raises(trisect.UsageError):
+        trisect.least_distance(wall, Motion(), cube, down, relative=0)
+    with pytest.raises(TypeError):
+        trisect.least_distance(wall, None, cube, down)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// If a point of A and a point of B coincide under the true motions, they are at most the sum of
-// both deviations apart under the enclosures; seen from A, at most that times the stretch of the
-// inverse of A's map. That is the margin. Where the boundaries are farther apart than the margin
+// The deviations of both enclosures are a margin (swept_view.cpp). Where the boundaries are farther apart than the margin
 // during a range of time they do not meet in it, and whether one solid is within the other is the
 // same all over it, for the true motion as for the enclosure: on the way from one pose to the other
 // no boundary reaches the other one.
@@ -38,25 +36,6 @@ constexpr double smallest_later_part = 0x1p-10;
 // So few pairs of triangles are compared at once, however far they sweep.
 constexpr std::size_t pairs_compared_at_once = 6;
 
-// A bound on how far a solid reaches from the origin, in the user's units.
-double reach_of(const Boundary& data) {
-    double square = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double v = std::max(std::abs(data.lo[i]), std::abs(data.hi[i]));
-        square += v * v;
-    }
-    return std::ldexp(std::sqrt(square) * surely_more, data.lattice.exponent);
-}
-
-std::vector<double> common_breaks(const EnclosedMotion& a, const EnclosedMotion& b) {
-    std::vector<double> r;
-    if (!a.is_still()) r.assign(a.breaks().begin(), a.breaks().end());
-    if (!b.is_still() || a.is_still()) r.insert(r.end(), b.breaks().begin(), b.breaks().end());
-    std::ranges::sort(r);
-    r.erase(std::unique(r.begin(), r.end()), r.end());
-    return r;
-}
-
 // Up to rounding: a proposal.
 std::array<double, 3> pulled_back(const std::array<double, 3>& p, const ApproximateMap& map) {
     const auto& m = map.m;
@@ -83,49 +62,24 @@ EnclosedQuery::EnclosedQuery(const Boundary& a, const EnclosedMotion& motion_a, 
       b_(b),
       motion_b_(motion_b),
       width_(options.width),
-      reach_a_(reach_of(a)),
-      reach_b_(reach_of(b)),
+      views_(a, motion_a, b, motion_b),
       walk_(a.boxes, b.boxes) {
     if (!(width_ > 0) || !std::isfinite(width_))
         throw UsageError("the width of a contact's interval must be positive");
-    if (!motion_a.is_still() && !motion_b.is_still() && motion_a.duration() != motion_b.duration())
-        throw UsageError("motions of different duration do not run together");
-    breaks_ = common_breaks(motion_a, motion_b);
 }
 
 EnclosedContact EnclosedQuery::run() {
-    const double duration = breaks_.back();
+    const std::vector<double>& breaks = views_.breaks();
+    const double duration = breaks.back();
     floor_ = duration * smallest_part;
     later_floor_ = std::max(width_, duration * smallest_later_part);
     result_.free_until = duration;
     if (a_.boxes.is_empty() || b_.boxes.is_empty()) return std::move(result_);
     if (is_contact(0)) found(0, 0);
-    for (std::size_t i = 1; i < breaks_.size() && !result_.contact_by; ++i)
-        visit(breaks_[i - 1], breaks_[i], {SweptWalk::Pair{}});
+    for (std::size_t i = 1; i < breaks.size() && !result_.contact_by; ++i)
+        visit(breaks[i - 1], breaks[i], {SweptWalk::Pair{}});
     finish();
     return std::move(result_);
-}
-
-SweptView EnclosedQuery::view(double from, double to) const {
-    const MotionEnclosure ea = motion_a_.enclose(from, to);
-    const MotionEnclosure eb = motion_b_.enclose(from, to);
-    const MotionPiece points =
-        relative_points(piece_of(ea.motion, 0), a_.lattice, piece_of(eb.motion, 0), b_.lattice);
-    if (!BallMotion::fits(points) || !BallMotion::fits(piece_of(ea.motion, 0)))
-        throw UnsupportedError("the relative motion of two enclosures has a degree above " +
-                               std::to_string(BallPolynomial::max_degree));
-    SweptView r{BallMotion::of_points(points), {}, 0};
-    r.swept = swept_map(r.motion, b_.lo, b_.hi);
-    const double deviation =
-        ea.by_length * reach_a_ + ea.constant + eb.by_length * reach_b_ + eb.constant;
-    if (deviation != 0) {
-        const BallMotion of_a = BallMotion::of_points(piece_of(ea.motion, 0));
-        r.margin =
-            std::ldexp(deviation * inverse_stretch(of_a), -a_.lattice.exponent) * surely_more;
-    }
-    // An infinity times 0, or an infinite sweep.
-    if (!(r.margin + r.swept.sweep < HUGE_VAL)) r.margin = HUGE_VAL;
-    return r;
 }
 
 // Whether the boundaries are certainly apart during a range; if not, what is left of `front`.

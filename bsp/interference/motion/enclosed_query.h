@@ -13,19 +13,12 @@
 #include <trisect/bsp/brep_index.h>
 #include <trisect/bsp/interference/boxes/obb_walk.h>
 #include <trisect/bsp/interference/enclosed_contact.h>
-#include <trisect/bsp/interference/motion/ball_motion.h>
+#include <trisect/bsp/interference/motion/swept_view.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
 #include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/kernel/pose.h>
 
 namespace trisect::detail {
-
-/// What A sees of B during a range of time.
-struct SweptView {
-    BallMotion motion;
-    SweptMap swept;     ///< B's sweep, without the margin
-    double margin = 0;  ///< in A's lattice units; infinite when nothing is known
-};
 
 /// The search, for one question. \pre the solids are not empty.
 class EnclosedQuery {
@@ -58,7 +51,7 @@ private:
     using Pairs = SweptWalk::Pairs;
     using Undecided = std::vector<TimeSpan>;
 
-    [[nodiscard]] SweptView view(double from, double to) const;
+    [[nodiscard]] SweptView view(double from, double to) const { return views_.view(from, to); }
     [[nodiscard]] bool is_free(const SweptView& view, const Pairs& front, bool is_last,
                                Pairs& rest);
     void keep_what_may_meet(const SweptView& view, Pairs& leaves, Pairs& rest);
@@ -76,10 +69,8 @@ private:
     const EnclosedMotion& motion_a_;
     const Boundary& b_;
     const EnclosedMotion& motion_b_;
-    std::vector<double> breaks_;
     double width_;
-    double reach_a_;
-    double reach_b_;
+    SweptViews views_;
     SweptWalk walk_;
     ObbWalk::Stack stack_;
     double floor_ = 0;

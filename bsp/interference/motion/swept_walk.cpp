@@ -57,6 +57,42 @@ Swept sweep_of(const BallMotion& motion, const Numerator& numerator) {
     return r;
 }
 
+// The norm of a matrix, certified from above up to 2^-40: with G = X^T X, of largest eigenvalue λ,
+// λ^(2^k) is at most the Frobenius norm of G^(2^k), and at least a third of it. Each square has an
+// error of some roundings of its norm, and its root takes 2^-k of that.
+double norm_of(const std::array<std::array<double, 3>, 3>& x) {
+    using Matrix = std::array<std::array<double, 3>, 3>;
+    const auto largest = [](const Matrix& m) {
+        double v = 0;
+        for (const auto& row : m)
+            for (const double c : row) v = std::max(v, magnitude_of(c));
+        return v;
+    };
+    const double size = largest(x);
+    if (!(size > 0x1p-900 && size < 0x1p900)) return HUGE_VAL;
+    const double unit = std::ldexp(1.0, std::ilogb(size));
+    Matrix g{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            for (std::size_t k = 0; k < 3; ++k) g[i][j] += (x[k][i] / unit) * (x[k][j] / unit);
+    constexpr int squares = 45;
+    double log = 0;  // of what the entries were divided by, as a part of the power
+    for (int n = 0; n <= squares; ++n) {
+        const double divisor = largest(g);
+        log += std::ldexp(std::log(divisor), -n);
+        for (auto& row : g)
+            for (double& c : row) c /= divisor;
+        if (n == squares) break;
+        Matrix square{};
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t j = 0; j < 3; ++j)
+                for (std::size_t k = 0; k < 3; ++k) square[i][j] += g[i][k] * g[k][j];
+        g = square;
+    }
+    // Entries are at most 1 now, so the norm is at most 3, the last root of which is 1 + 2^-44.
+    return unit * std::exp(log / 2) * surely_more;
+}
+
 }  // namespace
 
 SweptMap swept_map(const BallMotion& motion, const std::array<double, 3>& lo,
@@ -110,17 +146,10 @@ double inverse_stretch(const BallMotion& motion) {
         }
     const std::array<std::array<double, 3>, 3> x = inverse_of(v);
     const double rest = square_off_identity(x, v);
-    std::array<double, 3> rows{};
-    std::array<double, 3> columns{};
     double inverse = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-            rows[i] += magnitude_of(x[i][j]);
-            columns[j] += magnitude_of(x[i][j]);
-            inverse += x[i][j] * x[i][j];
-        }
-    const double norm = std::min(std::sqrt(inverse), std::sqrt(*std::ranges::max_element(rows) *
-                                                               *std::ranges::max_element(columns)));
+    for (const auto& row : x)
+        for (const double c : row) inverse += c * c;
+    const double norm = norm_of(x);
     const double loss = std::sqrt(rest) + 0x1p-48 * std::sqrt(inverse * size) +
                         norm * std::sqrt(reach) * surely_more;
     return loss < 0.5 ? norm / (1 - loss) * surely_more : HUGE_VAL;
