@@ -87,13 +87,13 @@ struct Scene {
 ///     g:boss g:slab                 a can under a terrain, on a plate: on the middle of a face
 ///     h:dense16                     16 nearly equal solids of 800 triangles, turned at random; any
 ///                                   other number as well, in the next ones, too
-///     h:onion16                     nested ones
-///     h:swarm16                     with centres at random in a third of their radius
-///     h:cylinders16                 cylinders of 200 sides about one centre, turned at random
-///     h:path200                     a plate less capsules that overlap along a path
-///     h:copies16                    a bumpy sphere of 800 triangles, moved along x each time
-///     h:floor16                     prisms of 200 sides on one floor about one axis
-///     h:stack16                     prisms of 200 sides, each on top of the one before
+///     h:dense16:halves              the union of the first eight with that of the others; any of
+///     h: h:onion16                     nested ones h:swarm16                     with centres at
+///     random in a third of their radius h:cylinders16                 cylinders of 200 sides about
+///     one centre, turned at random h:path200                     a plate less capsules that
+///     overlap along a path h:copies16                    a bumpy sphere of 800 triangles, moved
+///     along x each time h:floor16                     prisms of 200 sides on one floor about one
+///     axis h:stack16                     prisms of 200 sides, each on top of the one before
 ///     h:drills64 h:bores64          a plate less cylinders, flush with its upper side, or with
 ///     both h:slot64                      a plate less flush cylinders that overlap along a line
 ///

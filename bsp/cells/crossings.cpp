@@ -72,9 +72,8 @@ bool has_repeated_source(std::span<const Crossings::Operand> operands) {
 
 }  // namespace
 
-std::optional<Crossings> crossings_of(const Residual& formula,
-                                      std::span<const std::shared_ptr<const SolidState>> states,
-                                      CrossingOperands kinds) {
+std::optional<Crossings> crossing_operands(
+    std::span<const std::shared_ptr<const SolidState>> states, CrossingOperands kinds) {
     if (states.size() < 2) return std::nullopt;
     std::uint64_t facets = 0;
     Crossings out;
@@ -94,10 +93,18 @@ std::optional<Crossings> crossings_of(const Residual& formula,
         facets += polygons->size();
         if (facets > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
     }
+    if (has_repeated_source(out.operands)) return std::nullopt;
+    return out;
+}
+
+std::optional<Crossings> crossings_of(const Residual& formula,
+                                      std::span<const std::shared_ptr<const SolidState>> states,
+                                      CrossingOperands kinds) {
+    std::optional<Crossings> out = crossing_operands(states, kinds);
     FlatFormula flat(states.size());
-    if (!flat.read(formula) || has_repeated_source(out.operands)) return std::nullopt;
+    if (!out || !flat.read(formula)) return std::nullopt;
     for (std::size_t i = 0; i < states.size(); ++i) {
-        Crossings::Operand& o = out.operands[i];
+        Crossings::Operand& o = out->operands[i];
         o.open = static_cast<std::int8_t>(1 - flat.decides(i));
         // Above the source's facets is its outside.
         o.inside_above = flat.is_union() == ((o.flipped ? 1 : 0) == flat.decides(i));

@@ -100,6 +100,12 @@ enum class CrossingOperands : std::uint8_t {
     WithHalfSpaces  ///< and half-spaces, each of which has one facet
 };
 
+/// The operands of any formula over different meshes as they were imported: without what depends on
+/// the formula. Nothing where one is something else.
+[[nodiscard]] std::optional<Crossings> crossing_operands(
+    std::span<const std::shared_ptr<const SolidState>> states,
+    CrossingOperands kinds = CrossingOperands::Meshes);
+
 /// Crossings that an evaluation can collect, with the operands filled in: of different meshes as
 /// they were imported, every one of them once in a union, an intersection or a difference. Nothing
 /// for other formulas.

@@ -32,6 +32,7 @@ struct OutlinedFacets {
         std::uint32_t to = 0;
         std::uint32_t cutter = 0;  ///< the facet whose plane the edge lies in, where `edge` is -1
         std::int8_t edge = -1;     ///< of the facet
+        bool open_below = false;   ///< what is below the cutter is open
     };
     struct Facet {
         std::uint32_t number = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// least_distance: how near moving solids come to each other.
-// The answer is a certified interval, and a time at which they are as near as its upper end.
+// least_distance: certified bounds on the clearance of moving solids.
+// With a time at which they are as near as the upper one.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace trisect {
 struct LeastDistanceOptions {
     /// How far apart the bounds may be, as a part of the upper one; between 2^-30 and 1.
     double relative = 1e-6;
-    /// The same in the user's units: a distance below this need not be told from 0. What is smaller
+    /// The same in the user's units: a distance below this may count as 0. What is smaller
     /// than 2^-40 of the extent of the solids and their motions is taken as that.
     double absolute = 0;
 };
@@ -33,8 +33,8 @@ struct LeastDistance {
     EntityName b;
     Point3d on_a{};
     Point3d on_b{};
-    /// Whether the bounds are as close as requested. When they are not, there are times at which
-    /// doubles cannot tell more.
+    /// Whether the bounds are as close as requested. When they are not, doubles do not
+    /// decide more at some times.
     bool is_narrow = false;
 };
 

@@ -83,8 +83,11 @@ private:
                  const FacetCrossing& line);
     [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
                                           const std::array<std::uint32_t, 2>& places);
-    [[nodiscard]] bool is_open_below(std::size_t solid, std::uint32_t place) const {
-        return meshes_.operands->operands[solids_[solid]->facets[place].slot].is_open_below();
+    // To the facet of the other solid that it crosses.
+    [[nodiscard]] bool is_open_below(std::size_t solid,
+                                     const std::array<std::uint32_t, 2>& places) const {
+        const auto slot = [&](std::size_t i) { return solids_[i]->facets[places[i]].slot; };
+        return meshes_.is_open_below(slot(solid), slot(1 - solid));
     }
     [[nodiscard]] bool find_sides(std::size_t solid);
     [[nodiscard]] bool sort_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
@@ -153,7 +156,7 @@ bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
 // one what lies above the first.
 void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
                                 const CommonSegment& segment, const FacetCrossing& line) {
-    const std::array<bool, 2> along{is_open_below(1, places[1]), !is_open_below(0, places[0])};
+    const std::array<bool, 2> along{is_open_below(1, places), !is_open_below(0, places)};
     std::array<std::uint32_t, 2> ends{};
     for (std::size_t k = 0; k < 2; ++k) {
         const CommonSegment::End& end = segment.ends[k];
@@ -226,7 +229,7 @@ int CommonPart::Steps::order_of_stops(const OutlinedSolid::Edge& edge, std::uint
     const std::array<std::uint32_t, 2>& line = edge.line->facets;
     const std::size_t own = line[0] == facet ? 0 : 1;
     const bool open_below =
-        meshes_.operands->operands[meshes_.slot_of(line[1 - own])].is_open_below();
+        meshes_.is_open_below(meshes_.slot_of(line[1 - own]), meshes_.slot_of(facet));
     const bool along = open_below == (own == 0);
     return (along ? 1 : -1) * exact_.order_on_line(line, a.cutter, b.cutter);
 }

@@ -8,6 +8,10 @@
 // Intermediate results are parts of whole facets by name (outlined_solid.h), so nothing gets less
 // exact on the way, and no polygon is cut.
 //
+// Of unions and intersections of each other the terms of the innermost come first. A union is the
+// complement of what the complements of its terms have in common. Where something touches there,
+// cells are better: lines in which faces go straight across each other are edges of the result.
+//
 // Where meshes touch, operands are moved by less than any number (operand_shifts.h), which puts all
 // in general position. Assembly moves them back: parts without an area are left out then. Facets
 // that cover a part of a plane would leave a sheet of no thickness if they were moved the wrong
@@ -84,6 +88,19 @@ public:
           parallel_(parallel),
           first_is_last_(crowd_of(solids) == Crowd::InFirst) {}
 
+    // What all operands leave open together.
+    [[nodiscard]] std::optional<OutlinedSolid> of_all(EvaluateStats& stats) const {
+        if (meshes_.nested != nullptr) return of_node(NestedFormula::root, stats);
+        return of(0, static_cast<std::uint32_t>(solids_.size()), stats);
+    }
+
+    // Of all so far; in no order.
+    template <class Each>
+    void for_each_special(const Each& each) const {
+        common_.for_each([&](const CommonPart& c) { each(c.special()); });
+    }
+
+private:
     // What operands [first, end) leave open together.
     [[nodiscard]] std::optional<OutlinedSolid> of(std::uint32_t first, std::uint32_t end,
                                                   EvaluateStats& stats) const {
@@ -93,12 +110,49 @@ public:
                 is_open_far_out(*solids_[first], meshes_.operands->operands[first]));
         const bool is_alone = first_is_last_ && first == 0;
         const std::uint32_t middle = is_alone ? 1 : first + (end - first) / 2;
+        return common_of(
+            facets_of(first, end), stats, [&](EvaluateStats& s) { return of(first, middle, s); },
+            [&](EvaluateStats& s) { return of(middle, end, s); });
+    }
+    [[nodiscard]] std::optional<OutlinedSolid> of_node(std::uint32_t number,
+                                                       EvaluateStats& stats) const {
+        const NestedFormula::Node& node = meshes_.nested->node(number);
+        if (node.slot >= 0) {
+            const auto slot = static_cast<std::uint32_t>(node.slot);
+            return of(slot, slot + 1, stats);
+        }
+        std::optional<OutlinedSolid> out = of_terms(node, 0, node.terms.size(), stats);
+        if (out && node.unites) out->open_far_out = !out->open_far_out;
+        return out;
+    }
+    // Of a union what is complement to all its terms.
+    [[nodiscard]] std::optional<OutlinedSolid> of_terms(const NestedFormula::Node& node,
+                                                        std::size_t first, std::size_t end,
+                                                        EvaluateStats& stats) const {
+        if (first + 1 == end) {
+            std::optional<OutlinedSolid> out = of_node(node.terms[first], stats);
+            if (out && node.unites) out->open_far_out = !out->open_far_out;
+            return out;
+        }
+        const std::size_t middle = first + (end - first) / 2;
+        std::optional<OutlinedSolid> out = common_of(
+            facets_of_terms(node, first, end), stats,
+            [&](EvaluateStats& s) { return of_terms(node, first, middle, s); },
+            [&](EvaluateStats& s) { return of_terms(node, middle, end, s); });
+        if (!out || is_special()) return std::nullopt;
+        return out;
+    }
+
+    template <class Below, class Above>
+    [[nodiscard]] std::optional<OutlinedSolid> common_of(std::size_t facets, EvaluateStats& stats,
+                                                         const Below& below_by,
+                                                         const Above& above_by) const {
         std::optional<OutlinedSolid> below;
         std::optional<OutlinedSolid> above;
         EvaluateStats of_above;
-        const auto find_below = [&] { below = of(first, middle, stats); };
-        const auto find_above = [&] { above = of(middle, end, of_above); };
-        if (parallel_ && facets_of(first, end) >= parallel_facets) {
+        const auto find_below = [&] { below = below_by(stats); };
+        const auto find_above = [&] { above = above_by(of_above); };
+        if (parallel_ && facets >= parallel_facets) {
             both_at_once(find_above, find_below);
         } else {
             find_below();
@@ -111,13 +165,24 @@ public:
         return common.of(*std::move(below), *std::move(above), stats);
     }
 
-    // Of all so far; in no order.
-    template <class Each>
-    void for_each_special(const Each& each) const {
-        common_.for_each([&](const CommonPart& c) { each(c.special()); });
+    // Of this thread so far.
+    [[nodiscard]] bool is_special() const {
+        return !common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); })
+                    .special()
+                    .facets()
+                    .empty();
     }
-
-private:
+    [[nodiscard]] std::size_t facets_of_terms(const NestedFormula::Node& node, std::size_t first,
+                                              std::size_t end) const {
+        std::size_t n = 0;
+        for (std::size_t i = first; i < end; ++i) {
+            const NestedFormula::Node& term = meshes_.nested->node(node.terms[i]);
+            n += term.slot >= 0
+                     ? meshes_.sources[static_cast<std::size_t>(term.slot)]->facet_count()
+                     : facets_of_terms(term, 0, term.terms.size());
+        }
+        return n;
+    }
     [[nodiscard]] std::size_t facets_of(std::uint32_t first, std::uint32_t end) const {
         std::size_t n = 0;
         for (std::uint32_t i = first; i < end; ++i) n += meshes_.sources[i]->facet_count();
@@ -183,7 +248,7 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
         meshes.shifts = &*shifts;
         const BalancedTree tree(meshes, solids, options, threads != 1);
         EvaluateStats made;
-        auto solid = tree.of(0, static_cast<std::uint32_t>(solids.size()), made);
+        auto solid = tree.of_all(made);
         if (!solid) return std::nullopt;
         CommonOfAll out{*std::move(solid), {}};
         bool as_wanted = true;
@@ -194,6 +259,7 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
                 wanted.push_back(w);
             }
         });
+        if (meshes.nested != nullptr && !out.special.empty()) return std::nullopt;
         if (as_wanted) {
             add_sharing(out, meshes.facet_count());
             stats = made;
@@ -207,8 +273,8 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
 }
 
 // By what assembly needs.
-UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes, Crossings operands,
-                        std::shared_ptr<const LazyTree> tree) {
+UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes,
+                        const Crossings& operands, std::shared_ptr<const LazyTree> tree) {
     UndividedMeshes out;
     for (std::size_t i = 0; i < meshes.sources.size(); ++i)
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
@@ -224,12 +290,27 @@ UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes, Cr
         for (const OutlinedSolid::Edge& e : solid.edges_of(f)) {
             const std::uint32_t cutter =
                 e.line == nullptr ? 0 : e.line->facets[e.line->facets[0] == f.number ? 1 : 0];
-            outlined->edges.push_back({e.from, e.to, cutter, e.own});
+            const std::uint32_t cutter_slot = meshes.slot_of(cutter);
+            const bool open_below = e.line != nullptr && meshes.is_open_below(cutter_slot, f.slot);
+            outlined->edges.push_back({e.from, e.to, cutter, e.own, open_below});
         }
     }
     out.outlined = std::move(outlined);
-    out.crossings = std::make_shared<const Crossings>(std::move(operands));
+    out.crossings = std::make_shared<const Crossings>(operands);
     out.tree = std::move(tree);
+    return out;
+}
+
+// Operands as in an intersection, of what they are or their complements.
+std::optional<Crossings> nested_crossings(const Residual& formula, const SolidStates& solids) {
+    const auto nested = NestedFormula::read(formula, solids.size());
+    std::optional<Crossings> out = nested ? crossing_operands(solids) : std::nullopt;
+    if (!out) return std::nullopt;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        Crossings::Operand& o = out->operands[i];
+        o.open = nested->is_positive(i) ? 1 : 0;
+        o.inside_above = o.flipped == nested->is_positive(i);
+    }
     return out;
 }
 
@@ -238,7 +319,7 @@ UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes, Cr
 bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                         const EvaluateSettings& options) {
     if (solids.size() < 3 || options.budget != nullptr || options.max_memory != 0 ||
-        !crossings_of(*formula, solids))
+        (!crossings_of(*formula, solids) && !nested_crossings(*formula, solids)))
         return false;
     return std::ranges::all_of(solids, [](const auto& s) {
         return s->root().node->refinement() == nullptr &&
@@ -257,7 +338,13 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
                                                     EvaluateStats& stats,
                                                     std::shared_ptr<const LazyTree> tree) {
     std::optional<Crossings> operands = crossings_of(*formula, solids);
+    std::optional<NestedFormula> nested;
+    if (!operands) {
+        nested = NestedFormula::read(*formula, solids.size());
+        operands = nested_crossings(*formula, solids);
+    }
     ManyMeshes meshes;
+    meshes.nested = nested ? &*nested : nullptr;
     meshes.operands = &*operands;
     Box all;
     for (const auto& s : solids) {
@@ -272,7 +359,7 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
     });
     if (!result) return std::nullopt;
     operands->special = std::move(result->special);
-    UndividedMeshes form = form_of(result->solid, meshes, *std::move(operands), std::move(tree));
+    UndividedMeshes form = form_of(result->solid, meshes, *operands, std::move(tree));
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();
     stats = made;
     return form;

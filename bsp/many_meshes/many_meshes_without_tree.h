@@ -13,7 +13,8 @@
 namespace trisect::detail {
 
 /// Whether a formula is a union, an intersection or a difference of three imported meshes or more,
-/// none of which has an index, and neither work nor memory is limited.
+/// or of these of each other (NestedFormula), none of which has an index, and neither work nor
+/// memory is limited.
 [[nodiscard]] bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                       const EvaluateSettings& options);
 /// And whether their boxes mostly overlap, or the first one's has half of all: else more is

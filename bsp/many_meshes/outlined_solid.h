@@ -15,19 +15,27 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/many_meshes/nested_formula.h>
 #include <trisect/bsp/many_meshes/operand_shifts.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
-/// The operands of a union, an intersection or a difference of imported meshes, shared by all steps
-/// of its evaluation.
+/// The operands of a union, an intersection or a difference of imported meshes, or of these of each
+/// other, shared by all steps of its evaluation.
 struct ManyMeshes {
     const Crossings* operands = nullptr;  ///< without pairs
     std::vector<const Source*> sources;   ///< by slot
     Vector3 extent{};                     ///< of all together
     const OperandShifts* shifts = nullptr;
+    const NestedFormula* nested = nullptr;  ///< if the formula is one; then all operands are as in
+                                            ///< an intersection
 
+    /// Whether an operand leaves open what is below its facets to those of another one.
+    [[nodiscard]] bool is_open_below(std::uint32_t slot, std::uint32_t to) const {
+        return operands->operands[slot].is_open_below() !=
+               (nested != nullptr && nested->unites(slot, to));
+    }
     [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const {
         return static_cast<std::uint32_t>(operands->operand_of(number));
     }

@@ -53,10 +53,9 @@ void SpecialPairs::look_at_plane(std::uint32_t first, std::uint32_t second, bool
                                  bool are_equal) {
     const std::uint32_t first_slot = meshes_.slot_of(first);
     const std::uint32_t second_slot = meshes_.slot_of(second);
-    const auto& operands = meshes_.operands->operands;
-    const bool below_first = operands[first_slot].is_open_below();
+    const bool below_first = meshes_.is_open_below(first_slot, second_slot);
     // As seen from the first one.
-    const bool below_second = operands[second_slot].is_open_below() == same_side;
+    const bool below_second = meshes_.is_open_below(second_slot, first_slot) == same_side;
     const bool are_opposite = below_first != below_second;
     const InPlane& in_plane = planes_[first];
     const Key128 key{std::uint64_t{in_plane.of} << 1 | (in_plane.turned ? 1U : 0U),

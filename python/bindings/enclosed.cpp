@@ -249,7 +249,8 @@ void bind_least_distance(py::module_& m) {
             "b", [](const LeastDistance& d) { return d.b; }, "`EntityName` on the second one.")
         .def_property_readonly(
             "on_a", [](const LeastDistance& d) { return to_array(d.on_a); },
-            "Float array of shape (3,), near to the closest point of the first solid, in the world.")
+            "Float array of shape (3,), near to the closest point of the first solid, in the "
+            "world.")
         .def_property_readonly(
             "on_b", [](const LeastDistance& d) { return to_array(d.on_b); },
             "The same of the second solid.")

@@ -16,7 +16,7 @@
 // and first steps are also evaluated without being divided, where they allow it, and must give the
 // mesh that cells give.
 //
-// One of many is a union, an intersection, or one less all others, of three to eight operands or
+// One of many is a union, an intersection, or one less all others, or these of each other, of three to eight operands or
 // their complements, of which some are copies moved along the axes. It is evaluated pair by pair
 // without a tree by one, two and four threads, in special position as well.
 //
@@ -425,11 +425,30 @@ reference::Expression flat_formula(reference::Random& random, std::size_t n) {
     return Expression::node(kind == 0 ? Kind::Union : Kind::Intersection, terms);
 }
 
+// Unions, intersections and differences of each other.
+reference::Expression nested_formula(reference::Random& random, std::size_t first,
+                                     std::size_t end) {
+    using reference::Expression;
+    if (first + 1 == end) {
+        Expression leaf = Expression::leaf(first);
+        return random.chance(1, 6) ? Expression::node(Kind::Complement, {leaf}) : leaf;
+    }
+    const std::size_t middle = first + 1 + random.below(end - first - 1);
+    constexpr std::array kinds{Kind::Union, Kind::Intersection, Kind::Difference};
+    const Kind kind = kinds[random.below(3)];
+    Expression left = nested_formula(random, first, middle);
+    return Expression::node(kind, {std::move(left), nested_formula(random, middle, end)});
+}
+
 void run_many(const Options& options, std::uint64_t index, Counters& counters) {
     reference::Random random = generator(options.seed, 3, index);
     const int bits = fraction_bits(options, random);
-    const std::vector<reference::Operand> operands = many_operands(random);
-    const auto expression = flat_formula(random, operands.size());
+    std::vector<reference::Operand> operands = many_operands(random);
+    const bool is_nested = index % 3 == 2;
+    if (is_nested && index % 2 == 0)
+        for (reference::Operand& o : operands) o = engines::mapped(o, random);
+    const auto expression = is_nested ? nested_formula(random, 0, operands.size())
+                                      : flat_formula(random, operands.size());
     std::string why;
     try {
         std::vector<trisect::Solid> solids;

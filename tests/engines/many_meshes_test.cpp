@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -133,6 +134,45 @@ TEST(ManyMeshes, InGeneralPosition) {
     EXPECT_GT(count.without_tree, 140);
 }
 
+// Unions, intersections and differences of each other, over operands `first` to `end`.
+Expression random_nested(reference::Random& random, std::size_t first, std::size_t end) {
+    if (first + 1 == end) {
+        const Expression leaf = Expression::leaf(first);
+        return random.between(0, 4) == 0 ? Expression::node(Kind::Complement, {leaf}) : leaf;
+    }
+    const std::size_t middle =
+        first + 1 + static_cast<std::size_t>(random.between(0, static_cast<int>(end - first) - 2));
+    constexpr std::array kinds{Kind::Union, Kind::Intersection, Kind::Difference};
+    return Expression::node(
+        kinds[static_cast<std::size_t>(random.between(0, 2))],
+        {random_nested(random, first, middle), random_nested(random, middle, end)});
+}
+
+TEST(ManyMeshes, OfEachOtherInGeneralPosition) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 630000);
+        std::vector<Operand> operands;
+        for (std::size_t i = 0; i < 3 + seed % 4; ++i)
+            operands.push_back(engines::mapped(reference::random_embedded_solid(random), random));
+        expect_agreement(operands, random_nested(random, 0, operands.size()), count);
+    }
+    EXPECT_GT(count.without_tree, 180);
+}
+
+// Where anything touches, those with two levels go by cells.
+TEST(ManyMeshes, OfEachOtherOnASmallGrid) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 640000);
+        const auto operands = reference::random_family(random, 3 + seed % 4, true);
+        expect_agreement(operands, random_nested(random, 0, operands.size()), count);
+    }
+    EXPECT_GT(count.without_tree, 10);
+}
+
 // Nearly everything touches there. Few go by the tree.
 TEST(ManyMeshes, OnASmallGrid) {
     Count count;
@@ -237,6 +277,13 @@ TEST(ManyMeshes, CornerByCornerLikeCells) {
             expect_same_as_cells(
                 solids[0] - trisect::Expression::any_of(std::span(solids).subspan(1)), count);
             expect_same_as_cells(~trisect::Expression::any_of(solids), count);
+            const std::size_t half = solids.size() / 2;
+            const auto first = std::span(solids).first(half);
+            const auto last = std::span(solids).subspan(half);
+            expect_same_as_cells(
+                trisect::Expression::any_of(first) - trisect::Expression::all_of(last), count);
+            expect_same_as_cells(
+                trisect::Expression::any_of(first) & trisect::Expression::any_of(last), count);
         }
     }
     EXPECT_EQ(count.without_tree, count.tried);
@@ -247,7 +294,9 @@ TEST(ManyMeshes, ParallelPairsGiveTheSame) {
     std::vector<trisect::Solid> solids;
     for (int i = 0; i < 12; ++i) solids.push_back(sphere(1 + 0.05 * (i % 3), 0.3 + i, 0.02 * i));
     for (const trisect::Expression& e :
-         {trisect::Expression::any_of(solids), trisect::Expression::all_of(solids)}) {
+         {trisect::Expression::any_of(solids), trisect::Expression::all_of(solids),
+          trisect::Expression::any_of(std::span(solids).first(5)) &
+              trisect::Expression::any_of(std::span(solids).subspan(5))}) {
         const auto alone = without_tree(e);
         ASSERT_NE(alone, nullptr);
         const trisect::PolygonMesh expected = trisect::detail::assemble_mesh(*alone);

@@ -74,8 +74,7 @@ public:
 private:
     WorkEdge line_of(const OutlinedFacets::Edge& e, PlaneId own) {
         if (e.edge >= 0) return {own + e.edge, false};
-        return {support_of(e.cutter),
-                !operands_.operands[operands_.operand_of(e.cutter)].is_open_below()};
+        return {support_of(e.cutter), !e.open_below};
     }
 
     [[nodiscard]] PolygonRef ref(std::uint32_t number) const {

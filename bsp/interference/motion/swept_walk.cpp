@@ -61,8 +61,8 @@ Swept sweep_of(const BallMotion& motion, const Numerator& numerator) {
 // λ^(2^k) is at most the Frobenius norm of G^(2^k), and at least a third of it. Each square has an
 // error of some roundings of its norm, and its root takes 2^-k of that.
 double norm_of(const std::array<std::array<double, 3>, 3>& x) {
-    using Matrix = std::array<std::array<double, 3>, 3>;
-    const auto largest = [](const Matrix& m) {
+    using DoubleRows = std::array<std::array<double, 3>, 3>;
+    const auto largest = [](const DoubleRows& m) {
         double v = 0;
         for (const auto& row : m)
             for (const double c : row) v = std::max(v, magnitude_of(c));
@@ -71,7 +71,7 @@ double norm_of(const std::array<std::array<double, 3>, 3>& x) {
     const double size = largest(x);
     if (!(size > 0x1p-900 && size < 0x1p900)) return HUGE_VAL;
     const double unit = std::ldexp(1.0, std::ilogb(size));
-    Matrix g{};
+    DoubleRows g{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j)
             for (std::size_t k = 0; k < 3; ++k) g[i][j] += (x[k][i] / unit) * (x[k][j] / unit);
@@ -83,7 +83,7 @@ double norm_of(const std::array<std::array<double, 3>, 3>& x) {
         for (auto& row : g)
             for (double& c : row) c /= divisor;
         if (n == squares) break;
-        Matrix square{};
+        DoubleRows square{};
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j)
                 for (std::size_t k = 0; k < 3; ++k) square[i][j] += g[i][k] * g[k][j];

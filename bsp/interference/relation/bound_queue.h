@@ -2,9 +2,9 @@
 //
 // BoundQueue: pairs of boxes in the order of their bounds, nearly.
 //
-// Bounds of a sixteenth of an octave are one list, and the last pair that was put there comes first.
-// So what is equally near is searched in depth: it comes to triangles at once, and the queue stays
-// short. A heap would order what needs no order, and costs more than the tests of boxes.
+// Bounds of a sixteenth of an octave are one list, and the last pair that was put there comes
+// first. So what is equally near is searched in depth: it comes to triangles at once, and the queue
+// stays short. A heap would order what needs no order, and costs more than the tests of boxes.
 #pragma once
 
 #include <array>

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What has a lower bound below the distance is opened, in whatever order; what has one above it should
-// not be. So the search begins best first: the pair of boxes with the least bound is opened, then its
-// nearest child, down to triangles, which give bounds above and below (triangle_distance.cpp). After
-// some of these descents the least upper bound is near the distance, and what is clearly below it is
-// opened at once, in depth. The rest waits in the order of bounds, and most of it is left out when its
-// turn comes. What remains are the pairs whose lower bound is not above the least upper one: nearly
-// always one, or the few around a common edge or vertex. The exact distance is the least of theirs.
+// What has a lower bound below the distance is opened, in whatever order; what has one above it
+// should not be. So the search begins best first: the pair of boxes with the least bound is opened,
+// then its nearest child, down to triangles, which give bounds above and below
+// (triangle_distance.cpp). After some of these descents the least upper bound is near the distance,
+// and what is clearly below it is opened at once, in depth. The rest waits in the order of bounds,
+// and most of it is left out when its turn comes. What remains are the pairs whose lower bound is
+// not above the least upper one: nearly always one, or the few around a common edge or vertex. The
+// exact distance is the least of theirs.
 //
-// Where a shaft is in its hole, thousands of pairs are equally near, and doubles cannot say which is
-// the nearest. For bounds of the distance nobody needs to know: [lower, upper] of the best pair so
-// far may become [lower - (upper - lower), upper], and then what is certainly not nearer than that
-// can be left out. For nearly all others three directions prove it, at a quarter of the cost of
-// closest points.
+// Where a shaft is in its hole, thousands of pairs are equally near, and doubles cannot say which
+// is the nearest. For bounds of the distance that does not matter: [lower, upper] of the best pair
+// so far may become [lower - (upper - lower), upper], and then what is certainly not nearer than
+// that can be left out. For nearly all others three directions prove it, at a quarter of the cost
+// of closest points.
 
 #include <trisect/bsp/interference/relation/distance_search.h>
 

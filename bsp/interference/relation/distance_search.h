@@ -32,9 +32,9 @@ public:
     DistanceSearch(const Boundary& a, const Pose& pose_a, const Boundary& b, const Pose& pose_b);
 
     using Candidate = DistanceCandidate;
-    /// Looks for the distance alone: of pairs that are equally near, within the width of the interval,
-    /// one is enough. The interval may be twice as wide for that, and `candidates` are not all that
-    /// may be the closest. What is certainly at `limit` or farther is not looked at.
+    /// Looks for the distance alone: of pairs that are equally near, within the width of the
+    /// interval, one is enough. The interval may be twice as wide for that, and `candidates` are
+    /// not all that may be the closest. What is certainly at `limit` or farther is not looked at.
     void run_for_bounds(double limit = std::numeric_limits<double>::infinity());
     /// Looks for the closest pair. What is certainly at `limit` or farther is not looked at; with
     /// `stop` the search ends as soon as something is certainly nearer. Triangles of an earlier

@@ -5,11 +5,11 @@
 // eigenvalue of L^T L, which a row's diagonal entry minus the others bounds (Gershgorin); for a
 // rotation that is 1 up to rounding. For a matrix far from that σ >= |det| / |L|² serves.
 //
-// Where A is not turned at all L is a power of two. Where the least and the largest bound are within
-// 2^-44 of each other, triangles are compared in A's lattice and distances multiplied. Entries known
-// within 2^-50 of themselves change L^T L by less than 2^-49 and rounding by 2^-50 of the sum of
-// magnitudes of its terms, which is at most σ² (1 + 2^-40); three such entries, halved by the root,
-// are below 2^-47.
+// Where A is not turned at all L is a power of two. Where the least and the largest bound are
+// within 2^-44 of each other, triangles are compared in A's lattice and distances multiplied.
+// Entries known within 2^-50 of themselves change L^T L by less than 2^-49 and rounding by 2^-50 of
+// the sum of magnitudes of its terms, which is at most σ² (1 + 2^-40); three such entries, halved
+// by the root, are below 2^-47.
 //
 // Triangles are compared in the world's directions about a corner r of A's: L (p - r) and L (m q +
 // t - r). With row sums of |L| at most R, entries known within 2^-50 of themselves, differences at
@@ -55,8 +55,8 @@ Stretch stretch_of(const std::array<Vector3, 3>& l) {
         return {std::sqrt(least) * (1 - 0x1p-47), std::sqrt(most) * (1 + 0x1p-47)};
     const double det = std::abs(dot(l[0], cross(l[1], l[2])));
     const double by_det = most > 0 ? (det - 0x1p-45 * most * std::sqrt(most)) / most : 0;
-    return {std::max(
-        {0.0, least > 0 ? std::sqrt(least) * surely_less : 0.0, by_det * surely_less})};
+    return {
+        std::max({0.0, least > 0 ? std::sqrt(least) * surely_less : 0.0, by_det * surely_less})};
 }
 
 }  // namespace
@@ -102,8 +102,7 @@ DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double
 }
 
 DistanceCandidate PairDistance::compare_in_lattice(const TriangleCorners& p,
-                                                   const TriangleCorners& q,
-                                                   double nearest) const {
+                                                   const TriangleCorners& q, double nearest) const {
     // The origin is A's first corner, as below.
     TriangleCorners from_p;
     TriangleCorners from_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Points of the boundary of a solid, placed in the world and named.
+// Boundary points in the world, and their names.
 #pragma once
 
 #include <array>

@@ -2,8 +2,8 @@
 
 #include <trisect/bsp/interference/enclosed_contact.h>
 
+#include <trisect/bsp/interference/approach/enclosed_query.h>
 #include <trisect/bsp/interference/interference.h>
-#include <trisect/bsp/interference/motion/enclosed_query.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/diagnostics.h>
 

@@ -3,10 +3,10 @@
 #include <span>
 #include <utility>
 
+#include <trisect/bsp/interference/approach/least_distance_search.h>
+#include <trisect/bsp/interference/approach/swept_view.h>
 #include <trisect/bsp/interference/least_distance.h>
-#include <trisect/bsp/interference/motion/least_distance_search.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
-#include <trisect/bsp/interference/motion/swept_view.h>
 #include <trisect/bsp/interference/tree/solid_boundary.h>
 #include <trisect/bsp/interference/tree/solid_places.h>
 #include <trisect/kernel/error.h>

@@ -10,7 +10,7 @@
 // A range that is not done is halved with the pairs of boxes that are left: what is farther during
 // a range is so during its halves.
 
-#include <trisect/bsp/interference/motion/least_distance_search.h>
+#include <trisect/bsp/interference/approach/least_distance_search.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,12 +29,12 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Ranges of time shorter than this part of the duration are not halved any more.
-constexpr double smallest_part = 0x1p-40;
+constexpr double smallest_range = 0x1p-40;
 // Each part between breaks is asked at so many places, and the nearest one followed in so many.
 constexpr int samples = 16;
 constexpr int steps_down = 12;
 // So few pairs of triangles are compared at once, however far they sweep.
-constexpr std::size_t pairs_compared_at_once = 64;
+constexpr std::size_t pairs_tested_at_once = 64;
 
 }  // namespace
 
@@ -55,7 +55,7 @@ LeastDistanceSearch::LeastDistanceSearch(const Boundary& a, const EnclosedMotion
 }
 
 void LeastDistanceSearch::run() {
-    floor_ = views_.breaks().back() * smallest_part;
+    floor_ = views_.breaks().back() * smallest_range;
     upper_ = lower_ = infinite;
     sample();
     // What is certainly farther needs no finer answer than doubles have for what is there.
@@ -63,8 +63,8 @@ void LeastDistanceSearch::run() {
     for (std::size_t i = 1; i < views_.breaks().size() && goal() > 0; ++i)
         visit(views_.breaks()[i - 1], views_.breaks()[i], {SweptWalk::Pair{}});
     if (goal() <= 0) lower_ = 0;
-    is_narrow_ = is_narrow_ &&
-                 upper_ - lower_ <= std::max(options_.relative * upper_, options_.absolute);
+    is_narrow_ =
+        is_narrow_ && upper_ - lower_ <= std::max(options_.relative * upper_, options_.absolute);
 }
 
 // The distance at a time, if it is below the limit; notes the least.
@@ -147,7 +147,7 @@ bool LeastDistanceSearch::is_beyond(double from, double to, double distance, con
     if (pose.is_apart()) return true;
     Pairs leaves;
     walk_.refine(pose, sweep, front, leaves, rest);
-    if (leaves.size() > pairs_compared_at_once && walk_.are_long(pose, sweep, leaves))
+    if (leaves.size() > pairs_tested_at_once && walk_.are_long(pose, sweep, leaves))
         rest.insert(rest.end(), leaves.begin(), leaves.end());
     else
         keep_what_may_be_near(view, leaves, rest);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The deviations of both enclosures are a margin (swept_view.cpp). Where the boundaries are farther apart than the margin
-// during a range of time they do not meet in it, and whether one solid is within the other is the
-// same all over it, for the true motion as for the enclosure: on the way from one pose to the other
-// no boundary reaches the other one.
+// The deviations of both enclosures are a margin (swept_view.cpp). Where the boundaries are farther
+// apart than the margin during a range of time they do not meet in it, and whether one solid is
+// within the other is the same all over it, for the true motion as for the enclosure: on the way
+// from one pose to the other no boundary reaches the other one.
 //
 // The same margin, as an error of all corners, makes a crossing of two triangles in doubles one of
 // the true ones. And a point of B that the enclosure takes into A, deeper than the margin, is in A
@@ -11,7 +11,7 @@
 //
 // The search goes down the earlier half first. See visit for when it stops.
 
-#include <trisect/bsp/interference/motion/enclosed_query.h>
+#include <trisect/bsp/interference/approach/enclosed_query.h>
 
 #include <algorithm>
 #include <array>

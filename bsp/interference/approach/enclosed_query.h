@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/interference/approach/swept_view.h>
 #include <trisect/bsp/interference/boxes/obb_walk.h>
 #include <trisect/bsp/interference/enclosed_contact.h>
-#include <trisect/bsp/interference/motion/swept_view.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
 #include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/kernel/pose.h>

@@ -4,7 +4,7 @@
 // both deviations apart under the enclosures; seen from A, at most that times the stretch of the
 // inverse of A's map. That is the margin. A distance in the world is added to the deviations.
 
-#include <trisect/bsp/interference/motion/swept_view.h>
+#include <trisect/bsp/interference/approach/swept_view.h>
 
 #include <algorithm>
 #include <array>
@@ -37,8 +37,7 @@ mpq_class square_of_similarity(const MotionPiece& piece) {
         for (std::size_t j = 0; j < 3; ++j)
             if (i == j ? !(gram[i][j] == gram[0][0]) : !gram[i][j].is_zero()) return {};
     const IntegerPolynomial weight = piece.weight * piece.weight;
-    if (gram[0][0].is_zero() ||
-        !(gram[0][0] * weight.leading() == weight * gram[0][0].leading()))
+    if (gram[0][0].is_zero() || !(gram[0][0] * weight.leading() == weight * gram[0][0].leading()))
         return {};
     mpq_class square(gram[0][0].leading(), weight.leading());
     square.canonicalize();
@@ -122,9 +121,9 @@ SweptView SweptViews::view(double from, double to, double distance) const {
     const Enclosures e = enclose(from, to);
     SweptView r = view_without_margin(e);
     const double wanted = (deviation(e) + distance) * slightly_more;
-    r.margin = std::ldexp(wanted * inverse_stretch_of(piece_of(e.a.motion, 0)),
-                          -a_.lattice.exponent) *
-               surely_more;
+    r.margin =
+        std::ldexp(wanted * inverse_stretch_of(piece_of(e.a.motion, 0)), -a_.lattice.exponent) *
+        surely_more;
     if (!(r.margin + r.swept.sweep < HUGE_VAL)) r.margin = HUGE_VAL;
     return r;
 }

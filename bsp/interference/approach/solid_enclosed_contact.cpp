@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/interference/motion/enclosed_query.h>
+#include <trisect/bsp/interference/approach/enclosed_query.h>
 #include <trisect/bsp/interference/solid_motion.h>
 #include <trisect/bsp/interference/tree/entity_names.h>
 #include <trisect/bsp/interference/tree/solid_boundary.h>

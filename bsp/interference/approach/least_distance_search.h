@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include <trisect/bsp/interference/approach/swept_view.h>
 #include <trisect/bsp/interference/least_distance.h>
-#include <trisect/bsp/interference/motion/swept_view.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
 #include <trisect/bsp/interference/relation/boundary.h>
 #include <trisect/bsp/interference/relation/pair_distance.h>

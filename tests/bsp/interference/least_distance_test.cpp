@@ -52,8 +52,8 @@ void expect_right(const Solid& a, const Motion& motion_a, const Solid& b, const 
         return *exact_squared_distance(a, at(motion_a), b, at(motion_b));
     };
     EXPECT_LE(exact_at(ExactRational::from_double(found->time)), squared(found->upper));
-    const auto last = static_cast<std::int64_t>(
-        std::max(motion_a.piece_count(), motion_b.piece_count()));
+    const auto last =
+        static_cast<std::int64_t>(std::max(motion_a.piece_count(), motion_b.piece_count()));
     for (std::int64_t i = 0; i <= times; ++i) {
         const ExactRational t = ExactRational(i * last) / ExactRational(times);
         EXPECT_GE(exact_at(t), squared(found->lower)) << i;
@@ -82,8 +82,8 @@ TEST(LeastDistance, ATurningBarIsNearestInTheMiddle) {
     // Its end is on a circle of radius √17 about the origin.
     const Solid bar = solids::box(0, -1, 0, 4, 1, 1);
     const Solid wall = solids::box(5, -9, 0, 6, 9, 1);
-    const EnclosedMotion turn = EnclosedMotion::turning(
-        Pose::from_quaternion({3, 0, 0, -1}), {{0, 0, 1}, 3.0, {0, 0, 0}, {0, 0, 0}});
+    const EnclosedMotion turn = EnclosedMotion::turning(Pose::from_quaternion({3, 0, 0, -1}),
+                                                        {{0, 0, 1}, 3.0, {0, 0, 0}, {0, 0, 0}});
     LeastDistanceOptions options;
     options.relative = 1e-8;
     const auto found = least_distance(wall, EnclosedMotion(), bar, turn, options);
@@ -113,13 +113,14 @@ TEST(LeastDistance, ThroughEachOtherTouchingAndEmpty) {
     EXPECT_EQ(crossing->lower, 0);
     EXPECT_EQ(crossing->upper, 0);
     EXPECT_TRUE(crossing->is_narrow);
-    const auto sliding = least_distance(cube, Motion(), cube, Motion::translation(
-        Pose::from_translation({-5, 0, 1}), {9, 0, 0}));
+    const auto sliding = least_distance(
+        cube, Motion(), cube, Motion::translation(Pose::from_translation({-5, 0, 1}), {9, 0, 0}));
     EXPECT_EQ(sliding->lower, 0);
     EXPECT_LE(sliding->upper, 1e-12);
     EXPECT_TRUE(sliding->is_narrow);
     EXPECT_FALSE(least_distance(cube, Motion(), Solid(), Motion()).has_value());
-    const auto still = least_distance(cube, Motion(), cube, Motion(Pose::from_translation({4, 0, 0})));
+    const auto still =
+        least_distance(cube, Motion(), cube, Motion(Pose::from_translation({4, 0, 0})));
     EXPECT_NEAR(still->lower, 3, 1e-5);
     EXPECT_GE(still->upper, 3);
     EXPECT_THROW((void)least_distance(cube, Motion(), cube, through, {0.0, 0}),

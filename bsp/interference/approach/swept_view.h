@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// SweptViews: what a moving solid sees of another one during ranges of time.
+// SweptViews: relative motions of two solids over ranges of time.
+// With a margin for what enclosures leave open.
 #pragma once
 
 #include <vector>
