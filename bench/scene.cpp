@@ -452,6 +452,11 @@ Scene scene_of(const std::string& name) {
     if (words[0] == "i") return following_scene(name, words);
     if (words[0] == "c") return small_cut_scene(name, words);
     if (words[0] == "e") return milling_scene(name, words);
+    if (words[0] == "h" && words.size() > 2 && words[2] == "halves") {
+        Scene s = dense_scene(name, words[1]);
+        s.first_group = s.operands.size() / 2;
+        return s;
+    }
     if (words.size() > 2) unknown(name);
     if (words[0] == "a") return models_scene(name, words[1]);
     if (words[0] == "b") return spheres_scene(name, words[1]);
@@ -460,11 +465,6 @@ Scene scene_of(const std::string& name) {
     if (words[0] == "g")
         if (auto operands = degenerate_pair(words[1]))
             return pair(std::move(operands->first), std::move(operands->second));
-    if (words[0] == "h" && words.size() > 2 && words[2] == "halves") {
-        Scene s = dense_scene(name, words[1]);
-        s.first_group = s.operands.size() / 2;
-        return s;
-    }
     if (words[0] == "h") return dense_scene(name, words[1]);
     unknown(name);
 }
