@@ -16,9 +16,9 @@
 // and first steps are also evaluated without being divided, where they allow it, and must give the
 // mesh that cells give.
 //
-// One of many is a union, an intersection, or one less all others, or these of each other, of three to eight operands or
-// their complements, of which some are copies moved along the axes. It is evaluated pair by pair
-// without a tree by one, two and four threads, in special position as well.
+// One of many is a union, an intersection, or one less all others, or these of each other, of three
+// to eight operands or their complements, of which some are copies moved along the axes. It is
+// evaluated pair by pair without a tree by one, two and four threads, in special position as well.
 //
 //     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--many L]
 //                         [--threads T] [--fractions 1] [--only-pair I] [--only-formula I]
