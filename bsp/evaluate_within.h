@@ -3,6 +3,7 @@
 // evaluate_within: a formula evaluated in one box of space.
 #pragma once
 
+#include <trisect/brep/lattice_mesh.h>
 #include <trisect/bsp/expression.h>
 
 namespace trisect {
@@ -20,5 +21,9 @@ namespace trisect {
 [[nodiscard]] Solid evaluate_within(const Solid& window, const Expression& expression,
                                     const EvaluateOptions& options = {},
                                     EvaluateReport* report = nullptr);
+
+/// A closed mesh as an operand that may meet itself, beyond the box and in it. Facets that do are
+/// looked for at once, where Embedding::Check would first ask whether there are any.
+[[nodiscard]] Solid operand_within(LatticeMesh mesh);
 
 }  // namespace trisect

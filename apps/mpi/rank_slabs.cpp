@@ -91,6 +91,32 @@ void RankSlabs::step(const char* name, const std::function<void()>& work) {
     fail();
 }
 
+void RankSlabs::survey() {
+    step("survey", [&] {
+        if (!is_first()) return;
+        slab_run_.begin();
+        // What an interrupted run left.
+        for (const auto& entry : std::filesystem::directory_iterator(slabs_.folder)) {
+            const std::string name = entry.path().filename().string();
+            if (name.starts_with("claim-") || name.starts_with("failed"))
+                std::filesystem::remove(entry.path());
+        }
+    });
+    has_folder_ = true;
+    const auto ranks = static_cast<std::size_t>(Ranks::count());
+    step("survey", [&] {
+        if (!slab_run_.has_plan())
+            slab_run_.survey(static_cast<std::size_t>(Ranks::rank()), ranks);
+    });
+    step("walls", [&] {
+        if (is_first() && !slab_run_.has_plan()) slab_run_.decide(ranks);
+    });
+    step("walls", [&] {
+        if (!is_first()) slab_run_.take_plan();
+        shares_ = slab_run_.distributed();
+    });
+}
+
 // Again beside the walls, where a corner is on one.
 void RankSlabs::distribute() {
     if (shares_ != 0) return;
@@ -132,29 +158,31 @@ void RankSlabs::evaluate() {
     }
 }
 
+// The same steps as in one process, which are divided by pieces.
+JoinedMesh RankSlabs::join() {
+    const auto rank = static_cast<std::size_t>(Ranks::rank());
+    const auto ranks = static_cast<std::size_t>(Ranks::count());
+    const PieceJoin joining = slab_run_.joining();
+    JoinedMesh out;
+    step("join", [&] {
+        for (std::size_t i = rank; i < slab_run_.count(); i += ranks) joining.link(i);
+    });
+    step("join", [&] {
+        if (is_first()) out = joining.begin();
+    });
+    step("join", [&] { joining.write(rank, ranks); });
+    step("join", [&] {
+        if (is_first()) joining.finish();
+    });
+    return out;
+}
+
 Outcome RankSlabs::run() {
     session_.plan(4);
-    step("survey", [&] {
-        if (!is_first()) return;
-        slab_run_.plan();
-        // What an interrupted run left.
-        for (const auto& entry : std::filesystem::directory_iterator(slabs_.folder)) {
-            const std::string name = entry.path().filename().string();
-            if (name.starts_with("claim-") || name.starts_with("failed"))
-                std::filesystem::remove(entry.path());
-        }
-    });
-    has_folder_ = true;
-    step("walls", [&] {
-        if (!is_first()) slab_run_.take_plan();
-        shares_ = slab_run_.distributed();
-    });
+    survey();
     distribute();
     step("evaluate", [&] { evaluate(); });
-    SlabRun::Joined joined;
-    step("join", [&] {
-        if (is_first()) joined = slab_run_.join();
-    });
+    const JoinedMesh joined = join();
     if (!is_first()) return {};
     slab_run_.clean();
     return slab_outcome(session_, options_, slab_run_.current_plan(), joined);

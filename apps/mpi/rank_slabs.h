@@ -23,8 +23,10 @@ public:
 
 private:
     void step(const char* name, const std::function<void()>& work);
+    void survey();
     void distribute();
     void evaluate();
+    [[nodiscard]] JoinedMesh join();
     /// Makes a file that nobody else has made.
     [[nodiscard]] bool claim(std::size_t slab) const;
     [[nodiscard]] bool has_failed() const;

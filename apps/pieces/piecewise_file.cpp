@@ -22,6 +22,10 @@ constexpr std::size_t buffer_bytes = std::size_t{1} << 20;
 
 std::string system_reason() { return std::strerror(errno); }
 
+[[noreturn]] void fail_to_write(const std::string& name) {
+    throw Error(ErrorCode::Input, name + ": cannot be written: " + system_reason());
+}
+
 }  // namespace
 
 InputFile::InputFile(std::string name) : name_(std::move(name)) {
@@ -71,9 +75,7 @@ OutputStream::~OutputStream() {
     ::unlink(temporary_.c_str());
 }
 
-void OutputStream::fail() const {
-    throw Error(ErrorCode::Input, name_ + ": cannot be written: " + system_reason());
-}
+void OutputStream::fail() const { fail_to_write(name_); }
 
 void OutputStream::write(const void* bytes, std::size_t count) {
     buffer_.append(static_cast<const char*>(bytes), count);
@@ -101,6 +103,51 @@ void OutputStream::finish() {
         errno = kept;
         fail();
     }
+}
+
+OutputPart::OutputPart(std::string name, std::uint64_t offset)
+    : name_(std::move(name)), offset_(offset) {
+    descriptor_ = ::open(name_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail_to_write(name_);
+}
+
+OutputPart::~OutputPart() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputPart::write(const void* bytes, std::size_t count) {
+    buffer_.append(static_cast<const char*>(bytes), count);
+    if (buffer_.size() >= buffer_bytes) flush();
+}
+
+void OutputPart::flush() {
+    std::size_t done = 0;
+    while (done < buffer_.size()) {
+        const ssize_t n = ::pwrite(descriptor_, buffer_.data() + done, buffer_.size() - done,
+                                   static_cast<off_t>(offset_));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) fail_to_write(name_);
+        done += static_cast<std::size_t>(n);
+        offset_ += static_cast<std::uint64_t>(n);
+    }
+    buffer_.clear();
+}
+
+void OutputPart::finish() {
+    flush();
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) fail_to_write(name_);
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail_to_write(name_);
+}
+
+void make_file(const std::string& name, std::uint64_t size) {
+    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor < 0) fail_to_write(name);
+    const int resized = ::ftruncate(descriptor, static_cast<off_t>(size));
+    if (::close(descriptor) != 0 || resized != 0) fail_to_write(name);
+}
+
+void rename_file(const std::string& from, const std::string& to) {
+    if (::rename(from.c_str(), to.c_str()) != 0) fail_to_write(to);
 }
 
 }  // namespace trisect::app

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// InputFile and OutputStream: files larger than memory.
+// InputFile, OutputStream and OutputPart: files larger than memory.
 #pragma once
 
 #include <cstddef>
@@ -60,5 +60,36 @@ private:
     int descriptor_ = -1;
     std::string buffer_;
 };
+
+/// A part of a file that others write to as well, from a place on.
+class OutputPart {
+public:
+    /// \throw Error (Input)
+    OutputPart(std::string name, std::uint64_t offset);
+    OutputPart(const OutputPart&) = delete;
+    OutputPart& operator=(const OutputPart&) = delete;
+    ~OutputPart();
+
+    void write(const void* bytes, std::size_t count);
+    template <class T>
+    void write(const T& value) {
+        write(&value, sizeof value);
+    }
+    /// Flushes it to the disk.
+    void finish();
+
+private:
+    void flush();
+
+    std::string name_;
+    int descriptor_ = -1;
+    std::uint64_t offset_;
+    std::string buffer_;
+};
+
+/// An empty file of a size, to be filled by OutputPart. \throw Error (Input)
+void make_file(const std::string& name, std::uint64_t size);
+/// Gives a file its name. \throw Error (Input)
+void rename_file(const std::string& from, const std::string& to);
 
 }  // namespace trisect::app

@@ -64,15 +64,21 @@ std::string job_of(const SlabOptions& options) {
     return out;
 }
 
-SlabPlan make_plan(const SlabOptions& options) {
-    std::vector<Survey> surveys;
+std::vector<Survey> survey_share(const SlabOptions& options, std::size_t share,
+                                 std::size_t shares) {
+    std::vector<Survey> out;
+    for (const std::string& name : options.inputs)
+        out.push_back(survey_of(*TriangleStream::open(name), name, share, shares));
+    return out;
+}
+
+SlabPlan make_plan(const SlabOptions& options, const std::vector<Survey>& surveys) {
     SlabPlan plan;
-    for (const std::string& name : options.inputs) {
-        surveys.push_back(survey_of(*TriangleStream::open(name), name));
-        if (surveys.back().volume < 0)
+    for (std::size_t i = 0; i < surveys.size(); ++i) {
+        if (surveys[i].volume < 0)
             throw Error(ErrorCode::InvalidSolid,
-                        name + ": the boundary is inside out: its volume is negative");
-        plan.triangles.push_back(surveys.back().triangles);
+                        options.inputs[i] + ": the boundary is inside out: its volume is negative");
+        plan.triangles.push_back(surveys[i].triangles);
     }
     plan.slabs = Slabs::of(surveys, most_triangles(options), options.slabs);
     return plan;

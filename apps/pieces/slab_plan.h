@@ -3,6 +3,7 @@
 // SlabPlan: the division of space for one boolean, and its job.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <trisect/bsp/solid.h>
 
 #include "slabs.h"
+#include "survey.h"
 
 namespace trisect::app {
 
@@ -40,9 +42,13 @@ struct SlabPlan {
 /// \throw Error (Input) where a file is missing
 [[nodiscard]] std::string job_of(const SlabOptions& options);
 
-/// One pass over every operand.
-/// \throw InputError, UnsupportedError, LimitError; Error (InvalidSolid) for one inside out
-[[nodiscard]] SlabPlan make_plan(const SlabOptions& options);
+/// One pass over a share of every operand.
+/// \throw InputError, UnsupportedError; Error (InvalidSolid) for coordinates that are not finite
+[[nodiscard]] std::vector<Survey> survey_share(const SlabOptions& options, std::size_t share,
+                                               std::size_t shares);
+/// \param surveys of all shares
+/// \throw LimitError; Error (InvalidSolid) for an operand inside out
+[[nodiscard]] SlabPlan make_plan(const SlabOptions& options, const std::vector<Survey>& surveys);
 
 void write_plan(const std::string& name, const SlabPlan& plan, const std::string& job);
 /// Nothing where there is none for this job.

@@ -21,7 +21,6 @@
 #include <trisect/kernel/error.h>
 
 #include "piece.h"
-#include "piece_join.h"
 #include "piecewise_file.h"
 #include "slab_mesh.h"
 
@@ -117,25 +116,52 @@ void make_folder(const std::string& name) {
 
 }  // namespace
 
-void SlabRun::plan() {
+// Its first file says of which job it is, so it is known from the beginning.
+void SlabRun::begin() {
     if (!options_.natives.empty()) make_folder(options_.natives);
-    const std::string name = options_.folder + "/plan";
     if (std::filesystem::exists(options_.folder)) {
-        if (!std::filesystem::exists(name) && !std::filesystem::is_empty(options_.folder))
+        const bool is_known =
+            std::ranges::any_of(std::filesystem::directory_iterator(options_.folder),
+                                [](const auto& entry) {
+                                    return entry.path().filename().string().starts_with("job");
+                                });
+        if (!is_known && !std::filesystem::is_empty(options_.folder))
             throw Error(ErrorCode::Usage,
                         options_.folder + ": is there already, and not of trisect");
-        if (options_.resume) {
-            const auto found = read_plan(name, job_);
-            if (found) {
-                plan_ = *found;
-                return;
-            }
+        if (options_.resume && has_plan()) {
+            take_plan();
+            return;
         }
         std::filesystem::remove_all(options_.folder);
     }
-    plan_ = make_plan(options_);
     make_folder(options_.folder);
-    write_plan(name, plan_, job_);
+    OutputStream out(options_.folder + "/job");
+    out.write(job_.data(), job_.size());
+    out.finish();
+}
+
+bool SlabRun::has_plan() const { return read_plan(options_.folder + "/plan", job_).has_value(); }
+
+void SlabRun::survey(std::size_t share, std::size_t shares) const {
+    write_surveys(path("survey", share), survey_share(options_, share, shares));
+}
+
+void SlabRun::decide(std::size_t shares) {
+    std::vector<Survey> surveys(options_.inputs.size());
+    for (std::size_t s = 0; s < shares; ++s) {
+        const std::vector<Survey> share = read_surveys(path("survey", s), surveys.size());
+        for (std::size_t i = 0; i < surveys.size(); ++i) surveys[i].add(share[i]);
+    }
+    plan_ = make_plan(options_, surveys);
+    write_plan(options_.folder + "/plan", plan_, job_);
+    for (std::size_t s = 0; s < shares; ++s) std::filesystem::remove(path("survey", s));
+}
+
+void SlabRun::plan() {
+    begin();
+    if (has_plan()) return;
+    survey(0, 1);
+    decide(1);
 }
 
 void SlabRun::take_plan() {
@@ -217,7 +243,9 @@ Solid SlabRun::operand_in(std::size_t slab, std::size_t operand, std::size_t sha
     ImportedMesh imported = import_mesh(TriangleView{mesh.points(), mesh.triangles()});
     if (!imported.report.lattice.lossless)
         throw LimitError(options_.inputs[operand] + ": coordinates span more than 126 bits");
-    return Solid::from_lattice_mesh(std::move(imported.mesh), options_.embedding);
+    return options_.embedding == Embedding::Check
+               ? operand_within(std::move(imported.mesh))
+               : Solid::from_lattice_mesh(std::move(imported.mesh), options_.embedding);
 }
 
 Expression SlabRun::formula_of(const std::vector<Solid>& operands) const {
@@ -256,15 +284,28 @@ void SlabRun::evaluate(std::size_t slab, std::size_t shares, const EvaluateOptio
     throw with_slab(slab, e);
 }
 
-SlabRun::Joined SlabRun::join() const {
-    std::vector<std::string> pieces;
-    for (std::size_t i = 0; i < count(); ++i) pieces.push_back(path("piece", i));
-    const JoinedMesh made = join_pieces(pieces, options_.output);
-    return {made.points, made.triangles, made.wall_points};
+PieceJoin SlabRun::joining() const {
+    JoinFiles files{{}, {}, options_.output, options_.folder + "/joined"};
+    for (std::size_t i = 0; i < count(); ++i) {
+        files.pieces.push_back(path("piece", i));
+        files.links.push_back(path("link", i));
+    }
+    return PieceJoin(std::move(files));
+}
+
+JoinedMesh SlabRun::join() const {
+    const PieceJoin joining = this->joining();
+    for (std::size_t i = 0; i < count(); ++i) joining.link(i);
+    const JoinedMesh made = joining.begin();
+    joining.write(0, 1);
+    joining.finish();
+    return made;
 }
 
 void SlabRun::clean() const {
-    if (!read_plan(options_.folder + "/plan", job_)) return;
+    std::ifstream file(options_.folder + "/job");
+    std::string job;
+    if (!std::getline(file, job) || job != job_) return;
     std::error_code ignored;
     std::filesystem::remove_all(options_.folder, ignored);
 }

@@ -10,23 +10,30 @@
 
 #include <trisect/bsp/expression.h>
 
+#include "piece_join.h"
 #include "slab_plan.h"
 
 namespace trisect::app {
 
 /// The steps of one job, for one process or many that see one folder.
 ///
-///   1. plan() once: one pass over the operands decides the walls.
+///   1. begin() once; then, where no plan was taken over, survey() every share, and decide() once:
+///      one pass over the operands decides the walls.
 ///   2. distribute() every share: a second pass writes the triangles near each slab.
 ///   3. evaluate() every slab, in any order: it becomes a piece.
-///   4. join() once: one mesh of all pieces.
+///   4. joining() makes one mesh of all pieces, in steps of its own.
 ///
 /// Pieces depend on the plan alone, whoever makes them, and the mesh on the pieces.
 class SlabRun {
 public:
     explicit SlabRun(SlabOptions options);
 
-    /// Takes over the plan of a run that was interrupted, if wanted.
+    /// Makes the folder, or takes over the plan of a run that was interrupted, if wanted.
+    void begin();
+    [[nodiscard]] bool has_plan() const;
+    void survey(std::size_t share, std::size_t shares) const;
+    void decide(std::size_t shares);
+    /// The steps until here, in one process.
     void plan();
     /// The plan that another process made.
     void take_plan();
@@ -46,14 +53,9 @@ public:
     /// \throw Error of the operation; the slab is named
     void evaluate(std::size_t slab, std::size_t shares, const EvaluateOptions& options);
 
-    struct Joined {
-        std::uint64_t points = 0;
-        std::uint64_t triangles = 0;
-        std::uint64_t wall_points = 0;  ///< on walls: of two pieces
-    };
-    /// Writes the output, complete or not at all. \throw Error (Internal) where the two sides of a
-    /// wall do not fit
-    Joined join() const;
+    [[nodiscard]] PieceJoin joining() const;
+    /// All steps of it, in one process.
+    JoinedMesh join() const;
     /// Removes the folder, which only has files of this job.
     void clean() const;
 

@@ -11,29 +11,9 @@ namespace trisect::app {
 
 namespace {
 
-constexpr std::uint64_t sample_size = 200'000;
 constexpr std::size_t most_slabs = 4096;
 // Of the largest coordinate.
 constexpr int quantum_bits = 30;
-
-double volume_of(const Point3d& a, const Point3d& b, const Point3d& c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-Point3d difference_of(const Point3d& a, const Point3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-Survey::Reach reach_of_corners(const Corners& c) {
-    Survey::Reach r{c[0], c[0]};
-    for (const Point3d& p : c)
-        for (std::size_t k = 0; k < 3; ++k) {
-            r.low[k] = std::min(r.low[k], p[k]);
-            r.high[k] = std::max(r.high[k], p[k]);
-        }
-    return r;
-}
 
 /// All samples along one axis, each with the triangles that it stands for.
 struct AxisSample {
@@ -79,34 +59,6 @@ struct AxisSample {
 };
 
 }  // namespace
-
-Survey survey_of(const TriangleStream& stream, const std::string& name) {
-    Survey out;
-    out.triangles = stream.size();
-    out.step = 1 + out.triangles / sample_size;
-    Point3d origin{};
-    stream.read(0, out.triangles, [&](std::uint64_t i, const Corners& c) {
-        const Survey::Reach r = reach_of_corners(c);
-        for (std::size_t k = 0; k < 3; ++k)
-            if (!std::isfinite(r.low[k]) || !std::isfinite(r.high[k]) ||
-                !std::isfinite(c[0][k] + c[1][k] + c[2][k]))
-                throw Error(ErrorCode::InvalidSolid, name + ": triangle " + std::to_string(i) +
-                                                         " has a coordinate that is not finite");
-        if (i == 0) {
-            origin = c[0];
-            out.low = r.low;
-            out.high = r.high;
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            out.low[k] = std::min(out.low[k], r.low[k]);
-            out.high[k] = std::max(out.high[k], r.high[k]);
-        }
-        out.volume += volume_of(difference_of(c[0], origin), difference_of(c[1], origin),
-                                difference_of(c[2], origin));
-        if (i % out.step == 0) out.sample.push_back(r);
-    });
-    return out;
-}
 
 Slabs Slabs::of(const std::vector<Survey>& operands, std::uint64_t most, std::uint64_t least) {
     Slabs best;

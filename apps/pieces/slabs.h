@@ -10,27 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "triangle_stream.h"
+#include "survey.h"
 
 namespace trisect::app {
-
-/// What one pass over an operand says.
-struct Survey {
-    std::uint64_t triangles = 0;
-    Point3d low{};
-    Point3d high{};
-    double volume = 0;  ///< rounded
-    /// Every so many triangles one: its reach along the axes.
-    std::uint64_t step = 1;
-    struct Reach {
-        std::array<double, 3> low;
-        std::array<double, 3> high;
-    };
-    std::vector<Reach> sample;
-};
-
-/// \throw Error (InvalidSolid) for coordinates that are not finite
-[[nodiscard]] Survey survey_of(const TriangleStream& stream, const std::string& name);
 
 /// Walls across one axis. Slab i is between walls i - 1 and i; the first and the last one have no
 /// end. Walls are odd multiples of a power of two, 2^-30 of the largest coordinate, so that hardly

@@ -9,7 +9,7 @@ namespace trisect::app {
 
 Session::Timer::~Timer() {
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start_;
-    session_.seconds_[name_] = time.count();
+    session_.seconds_[name_] = session_.seconds_.value(name_, 0.0) + time.count();
     session_.detail(fmt::format("{:<12}{:.3f} s", name_, time.count()));
 }
 

@@ -65,7 +65,7 @@ SlabOptions slab_options(const Session& session, const BooleanOptions& options) 
 }
 
 Outcome slab_outcome(const Session& session, const BooleanOptions& options, const SlabPlan& plan,
-                     const SlabRun::Joined& joined) {
+                     const JoinedMesh& joined) {
     constexpr std::string_view axes = "xyz";
     Outcome out;
     out.document["schema"] = "trisect.slabs/1";
@@ -94,9 +94,9 @@ Outcome slab_outcome(const Session& session, const BooleanOptions& options, cons
 Outcome run_in_slabs(Session& session, const BooleanOptions& options) {
     SlabRun run(slab_options(session, options));
     session.plan(4);
-    session.stage("survey", [&] { run.plan(); });
-    SlabRun::Joined joined;
+    JoinedMesh joined;
     try {
+        session.stage("survey", [&] { run.plan(); });
         session.interruptible_stage("distribute", [&] {
             while (run.distributed() == 0)
                 run.distribute(0, 1) ? run.note_distributed(1) : run.move_walls();

@@ -27,6 +27,6 @@ void add_slab_options(CLI::App& command, BooleanOptions& options);
 [[nodiscard]] Outcome run_in_slabs(Session& session, const BooleanOptions& options);
 
 [[nodiscard]] Outcome slab_outcome(const Session& session, const BooleanOptions& options,
-                                   const SlabPlan& plan, const SlabRun::Joined& joined);
+                                   const SlabPlan& plan, const JoinedMesh& joined);
 
 }  // namespace trisect::app

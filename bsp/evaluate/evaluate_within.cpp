@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -229,6 +230,23 @@ Solid evaluate_within(const Solid& window, const Expression& expression,
     state->whole = std::ranges::all_of(states, [](const auto& s) { return s->whole; });
     state->form = std::move(evaluation.tree);
     if (report != nullptr) *report = {lattice, evaluation.stats.memory, evaluation.stats.depth};
+    return detail::solid_of(std::move(state));
+}
+
+Solid operand_within(LatticeMesh mesh) {
+    if (mesh.triangles.empty()) return {};
+    std::optional<std::vector<detail::FacetKind>> kinds = detail::facet_kinds(mesh);
+    auto state = std::make_shared<SolidState>();
+    state->lattice = mesh.lattice;
+    auto source = Source::make(std::move(mesh), 1);
+    if (kinds) source = Source::of_kinds(std::move(source), *std::move(kinds));
+    state->form = detail::CellTree{
+        {CellNode::fresh(*source, detail::point_beyond(source->box()), 0, false), false},
+        {},
+        nullptr};
+    state->embedded = false;
+    state->whole = source->is_whole();
+    state->source = source->serial();
     return detail::solid_of(std::move(state));
 }
 
