@@ -65,9 +65,39 @@ Outcome CoordinatingRank::run() {
     return outcome(report);
 }
 
+// Every rank reads some shares; all see the same file, so this rank knows how many will come.
+ClashManifest CoordinatingRank::read_manifest() {
+    const SharedManifest manifest(options_.clash.manifest, all_.size());
+    std::vector<std::optional<ManifestShare>> shares(manifest.shares());
+    std::size_t missing = shares.size();
+    const auto take_message = [&] {
+        const auto message = ranks_.receive();
+        if (!message) return false;
+        SharedParts share = shared_parts_of(message->bytes);
+        if (share.number >= shares.size()) {
+            missing = 0;
+            return false;
+        }
+        shares[share.number] = std::move(share.parts);
+        if (missing != 0) --missing;
+        return true;
+    };
+    for (std::size_t i = 0; i < shares.size(); i += all_.size()) {
+        shares[i] = manifest.read(i);
+        if (missing != 0) --missing;
+        while (missing != 0 && take_message()) continue;
+    }
+    for (Patience patience; missing != 0;) {
+        if (take_message()) continue;
+        if (session_.supervisor().stop_flag()) throw CancelledError();
+        patience.wait();
+    }
+    return manifest.join(std::move(shares));
+}
+
 // The journal of this rank has all that is taken over before the others are removed.
 void CoordinatingRank::begin() {
-    manifest_ = read_clash_manifest(options_.clash.manifest);
+    manifest_ = read_manifest();
     RankStart start{options_.clash.manifest, clash_run_key(manifest_, options_.clash),
                     manifest_.groups.size(), manifest_.sets};
     const std::vector<std::string> old = journals();
@@ -100,7 +130,8 @@ void CoordinatingRank::hand_out() {
 bool CoordinatingRank::accept_all() {
     bool has_come = false;
     while (auto message = ranks_.receive()) {
-        accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
+        if (message->tag == Ranks::Result)
+            accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
         has_come = true;
     }
     while (auto result = local_ ? local_->take() : std::nullopt) {
@@ -163,7 +194,8 @@ void CoordinatingRank::end_ranks(std::optional<double> seconds) {
     Patience patience;
     while (true) {
         while (auto message = ranks_.receive())
-            accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
+            if (message->tag == Ranks::Result)
+                accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
         if (std::all_of(all_.begin() + 1, all_.end(), [](const Rank& r) { return r.has_ended; }))
             break;
         if (seconds && std::chrono::duration<double>(Clock::now() - begin).count() > *seconds)

@@ -39,6 +39,7 @@ private:
     };
 
     void begin();
+    [[nodiscard]] ClashManifest read_manifest();
     void hand_out();
     [[nodiscard]] bool accept_all();
     void accept(std::size_t rank, RankResult&& result);

@@ -143,6 +143,48 @@ RankResult rank_result_of(const std::string& bytes) {
     return out;
 }
 
+std::string bytes_of(const SharedParts& share) {
+    MessageWriter out;
+    out.put(share.number);
+    out.put(share.parts.has_value());
+    if (!share.parts) return out.take();
+    for (const auto* const names : {&share.parts->files, &share.parts->groups}) {
+        out.put(std::uint64_t{names->size()});
+        for (const std::string& name : *names) out.put_text(name);
+    }
+    out.put(std::uint64_t{share.parts->parts.size()});
+    for (const ClashPart& part : share.parts->parts) {
+        out.put_text(part.id);
+        out.put_text(part.name == part.id ? std::string() : part.name);
+        out.put(part.file);
+        out.put(part.group);
+        out.put(part.pose);
+    }
+    return out.take();
+}
+
+SharedParts shared_parts_of(const std::string& bytes) {
+    MessageReader in(bytes);
+    SharedParts out;
+    out.number = in.get<std::uint64_t>();
+    if (!in.get<bool>()) return out;
+    ManifestShare& share = out.parts.emplace();
+    for (auto* const names : {&share.files, &share.groups}) {
+        names->resize(in.get<std::uint64_t>());
+        for (std::string& name : *names) name = in.get_text();
+    }
+    share.parts.resize(in.get<std::uint64_t>());
+    for (ClashPart& part : share.parts) {
+        part.id = in.get_text();
+        part.name = in.get_text();
+        if (part.name.empty()) part.name = part.id;  // no name is empty
+        part.file = in.get<std::uint32_t>();
+        part.group = in.get<std::uint32_t>();
+        part.pose = in.get<std::array<double, 12>>();
+    }
+    return out;
+}
+
 Json file_json(const ClashFile& file) {
     Json out;
     if (file.box) {

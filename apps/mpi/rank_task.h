@@ -78,6 +78,15 @@ inline constexpr std::uint64_t first_file_piece = std::uint64_t{1} << 62;
 [[nodiscard]] RankTask rank_task_of(const std::string& bytes);
 [[nodiscard]] RankResult rank_result_of(const std::string& bytes);
 
+/// One share of a manifest; without parts where it could not be read.
+inline constexpr std::uint64_t no_share = ~std::uint64_t{0};  ///< where a rank finds none
+struct SharedParts {
+    std::uint64_t number = 0;
+    std::optional<ManifestShare> parts;
+};
+[[nodiscard]] std::string bytes_of(const SharedParts& share);
+[[nodiscard]] SharedParts shared_parts_of(const std::string& bytes);
+
 /// A file's entry in a journal.
 [[nodiscard]] Json file_json(const ClashFile& file);
 [[nodiscard]] ClashFile file_of_json(const Json& json);

@@ -89,7 +89,8 @@ void RankWorker::read_file(const RankTask& task, RankResult& result) {
 void RankWorker::answer_slice(const RankTask& task, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
     if (tile_ != tile_of(task.piece)) find_candidates(task);
-    const std::size_t size = std::max(slice_pairs, (pairs_.size() + most_slices - 1) / most_slices);
+    const std::size_t size = std::max(options_.volumes ? slice_volumes : slice_pairs,
+                                      (pairs_.size() + most_slices - 1) / most_slices);
     const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
     const std::size_t slice = slice_of(task.piece);
     if (slice == 0) check_poses(task);

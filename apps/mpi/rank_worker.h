@@ -19,9 +19,10 @@ namespace trisect::app {
 /// Knows nothing of other ranks. What is finished is in the journal before it is handed back.
 class RankWorker {
 public:
-    /// Pairs of a slice, more where a tile would have more slices than that. Journals do not depend
-    /// on ranks, so these are fixed.
+    /// Pairs of a slice, fewer where each may be a boolean, and more where a tile would have more
+    /// slices than that. Journals do not depend on ranks, so these are fixed.
     static constexpr std::size_t slice_pairs = 32;
+    static constexpr std::size_t slice_volumes = 4;
     static constexpr std::size_t most_slices = 256;
 
     RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,

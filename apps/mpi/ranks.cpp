@@ -62,7 +62,8 @@ bool Ranks::has_sent_all() {
 
 void Patience::wait() {
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds_));
-    microseconds_ = std::min(microseconds_ + 10, 200U);
+    // Asking is a call of the system or several. Ranks have work ahead of them meanwhile.
+    microseconds_ = std::min(microseconds_ + 10, 2000U);
 }
 
 }  // namespace trisect::app

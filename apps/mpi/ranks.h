@@ -15,7 +15,7 @@ namespace trisect::app {
 /// All calls are of the thread that made MPI ready.
 class Ranks {
 public:
-    enum Tag : int { Start = 1, Task = 2, Result = 3 };
+    enum Tag : int { Start = 1, Task = 2, Result = 3, Manifest = 4 };
 
     [[nodiscard]] static int rank();
     [[nodiscard]] static int count();

@@ -29,6 +29,7 @@ public:
         : session_(session), options_(options) {}
 
     void serve() {
+        send_shares();
         while (true) {
             const Ranks::Message message = next();
             if (message.tag == Ranks::Start) {
@@ -48,6 +49,13 @@ public:
     }
 
 private:
+    void send_shares() {
+        const auto ranks = static_cast<std::size_t>(Ranks::count());
+        const SharedManifest manifest(options_.clash.manifest, ranks);
+        for (auto i = static_cast<std::size_t>(Ranks::rank()); i < manifest.shares(); i += ranks)
+            ranks_.send(0, Ranks::Manifest, bytes_of(SharedParts{i, manifest.read(i)}));
+        if (manifest.shares() == 0) ranks_.send(0, Ranks::Manifest, bytes_of(SharedParts{no_share, {}}));
+    }
     void begin(const RankStart& start) {
         try {
             worker_.emplace(session_, options_.clash, options_.most_bytes, start,

@@ -33,7 +33,16 @@
 namespace trisect::app {
 namespace {
 
+constexpr std::size_t manifest_readers = 16;  // as many threads have something to read
 constexpr std::size_t piece_size = 1024;  // pairs; journals of other sizes would not fit
+
+ClashManifest read_by_threads(Session& session, const std::string& file) {
+    const SharedManifest manifest(file, manifest_readers);
+    std::vector<std::optional<ManifestShare>> shares(manifest.shares());
+    for_each_in_parallel(shares.size(), session.limits(),
+                         [&](std::size_t i) { shares[i] = manifest.read(i); });
+    return manifest.join(std::move(shares));
+}
 
 class ClashRun {
 public:
@@ -41,7 +50,7 @@ public:
         : session_(session),
           options_(options),
           shard_(parse_shard(options.shard)),
-          manifest_(read_clash_manifest(options.manifest)),
+          manifest_(read_by_threads(session, options.manifest)),
           files_(manifest_.files.size()),
           models_(manifest_.files.size()) {
         report_.manifest = options.manifest;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -21,6 +22,9 @@
 
 namespace trisect::app {
 namespace {
+
+// Text of a share, at most.
+constexpr std::uint64_t share_bytes = std::uint64_t{4} << 20;
 
 // Reports are JSON, which has nothing else.
 bool is_utf8(const std::string& text) {
@@ -34,16 +38,41 @@ bool is_utf8(const std::string& text) {
 
 class ManifestReader {
 public:
-    explicit ManifestReader(const std::string& file) : file_(file) {
-        bytes_ = std::string(read_file(file, ReadLimits().bytes).view());
-        out_.key = clash_id({bytes_});
-    }
+    explicit ManifestReader(const std::string& file) : file_(file) {}
 
     ClashManifest read() {
+        bytes_ = read_file(file_, ReadLimits().bytes);
         if (file_.ends_with(".csv"))
             read_csv();
         else
             read_json();
+        return finished();
+    }
+
+    /// Of parts alone, with their brackets.
+    ManifestShare read_share(std::string_view text) {
+        for (const Json& p : without_parts(text, 1)) read_part(p);
+        if (out_.parts.empty()) fail("a comma without a part");
+        return {std::move(out_.parts), std::move(out_.files), std::move(out_.groups)};
+    }
+
+    ClashManifest join(std::vector<std::optional<ManifestShare>>& shares, const PartsPlace& place) {
+        bytes_ = read_file(file_, ReadLimits().bytes);
+        for (auto& share : shares) {
+            add_share(std::move(*share));
+            share.reset();
+        }
+        std::string rest(bytes_.view().substr(0, place.begin));
+        rest += bytes_.view().substr(place.end);
+        const Json document = Json::parse(rest);
+        if (!document.at("parts").empty()) fail("two lists of parts");
+        read_sets(document);
+        return finished();
+    }
+
+private:
+    ClashManifest finished() {
+        out_.key = clash_id({std::string(bytes_.view())});
         if (out_.sets.empty()) add_default_set();
         std::ranges::sort(out_.parts, {}, &ClashPart::id);
         const auto twice = std::ranges::adjacent_find(out_.parts, {}, &ClashPart::id);
@@ -53,7 +82,6 @@ public:
         return std::move(out_);
     }
 
-private:
     [[noreturn]] void fail(const std::string& what, std::uint64_t line = 0) const {
         throw InputError(FilePlace{file_, line, line != 0 ? 1U : 0U, 0}, what);
     }
@@ -81,6 +109,24 @@ private:
                                    : (std::filesystem::path(file_).parent_path() / path).string());
         }
         return at->second;
+    }
+
+    // Its files are as they can be opened already.
+    void add_share(ManifestShare&& share) {
+        std::vector<std::uint32_t> groups;
+        for (const std::string& name : share.groups) groups.push_back(group(name));
+        std::vector<std::uint32_t> files;
+        for (const std::string& name : share.files) {
+            const auto [at, is_new] =
+                files_.try_emplace(name, static_cast<std::uint32_t>(out_.files.size()));
+            if (is_new) out_.files.push_back(name);
+            files.push_back(at->second);
+        }
+        for (ClashPart& part : share.parts) {
+            part.group = groups[part.group];
+            part.file = files[part.file];
+            out_.parts.push_back(std::move(part));
+        }
     }
 
     // Two names may be one: "a.off", and the same with its folder.
@@ -115,10 +161,9 @@ private:
 
     void read_json() {
         try {
-            const Json document = without_parts();
+            const Json document = without_parts(bytes_.view(), 2);
             for (const Json& p : document.at("parts")) read_part(p);  // what is no object
-            if (document.contains("sets"))
-                for (const Json& s : document.at("sets")) read_set(s);
+            read_sets(document);
         } catch (const Json::parse_error& e) {
             throw InputError(FilePlace{file_, 0, 0, e.byte}, "no JSON");
         } catch (const Json::exception& e) {
@@ -128,14 +173,21 @@ private:
 
     // Each part is read when its end is reached, and forgotten: the document of all is many times
     // as large as what is kept of it.
-    Json without_parts() {
-        bool in_parts = false;
-        return Json::parse(bytes_, [&](int depth, Json::parse_event_t event, Json& parsed) {
-            if (event == Json::parse_event_t::key && depth == 1) in_parts = parsed == "parts";
-            if (event != Json::parse_event_t::object_end || depth != 2 || !in_parts) return true;
+    Json without_parts(std::string_view text, int depth_of_parts) {
+        bool in_parts = depth_of_parts == 1;
+        return Json::parse(text, [&](int depth, Json::parse_event_t event, Json& parsed) {
+            if (event == Json::parse_event_t::key && depth == 1 && depth_of_parts == 2)
+                in_parts = parsed == "parts";
+            if (event != Json::parse_event_t::object_end || depth != depth_of_parts || !in_parts)
+                return true;
             read_part(parsed);
             return false;
         });
+    }
+
+    void read_sets(const Json& document) {
+        if (!document.contains("sets")) return;
+        for (const Json& s : document.at("sets")) read_set(s);
     }
 
     void read_part(const Json& p) {
@@ -228,7 +280,7 @@ private:
     }
 
     void read_csv() {
-        std::string_view rest = bytes_;
+        std::string_view rest = bytes_.view();
         std::vector<std::string> columns;
         for (std::uint64_t line = 1; !rest.empty(); ++line) {
             const std::size_t end = std::min(rest.find('\n'), rest.size());
@@ -269,7 +321,7 @@ private:
     }
 
     std::string file_;
-    std::string bytes_;
+    FileBytes bytes_;
     std::map<std::string, std::uint32_t> groups_;
     std::unordered_map<std::string, std::uint32_t> files_;
     ClashManifest out_;
@@ -278,6 +330,46 @@ private:
 }  // namespace
 
 ClashManifest read_clash_manifest(const std::string& file) { return ManifestReader(file).read(); }
+
+SharedManifest::SharedManifest(std::string file, std::size_t readers) : file_(std::move(file)) {
+    if (file_.ends_with(".csv")) return;
+    try {
+        place_ = find_parts(InputFile(file_));
+    } catch (const Error&) {
+        return;  // no file that can be read in pieces
+    }
+    if (!place_) return;
+    const std::uint64_t bytes = place_->end - place_->begin;
+    shares_ = readers * (1 + bytes / (readers * share_bytes));
+}
+
+std::optional<ManifestShare> SharedManifest::read(std::size_t share) const {
+    const auto [begin, end] = place_->share(share, shares_);
+    if (begin == end) return ManifestShare();
+    try {
+        std::string text(end - begin + 2, '[');
+        InputFile(file_).read(begin, std::span(text).subspan(1, end - begin));
+        text.back() = ']';
+        return ManifestReader(file_).read_share(text);
+    } catch (const Error&) {
+        return std::nullopt;
+    } catch (const Json::exception&) {
+        return std::nullopt;
+    }
+}
+
+ClashManifest SharedManifest::join(std::vector<std::optional<ManifestShare>> parts) const {
+    const bool is_whole = parts.size() == shares_ && std::ranges::all_of(parts, [](const auto& p) {
+        return p.has_value();
+    });
+    if (!place_ || !is_whole) return read_clash_manifest(file_);
+    try {
+        return ManifestReader(file_).join(parts, *place_);
+    } catch (const Error&) {
+    } catch (const Json::exception&) {
+    }
+    return read_clash_manifest(file_);
+}
 
 std::uint32_t part_number(const ClashManifest& manifest, const std::string& id) {
     const auto at = std::ranges::lower_bound(manifest.parts, id, {}, &ClashPart::id);

@@ -4,9 +4,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "manifest_scan.h"
 
 namespace trisect::app {
 
@@ -48,6 +52,32 @@ struct ClashManifest {
 /// JSON, or CSV where the name ends so. Files of parts are looked for beside the manifest.
 /// \throw InputError with the place
 [[nodiscard]] ClashManifest read_clash_manifest(const std::string& file);
+
+/// Parts that follow each other in a manifest, with files and groups of their own.
+struct ManifestShare {
+    std::vector<ClashPart> parts;
+    std::vector<std::string> files;
+    std::vector<std::string> groups;
+};
+
+/// A manifest whose parts are read in shares, by threads or by processes that see the file. What
+/// is not as it should be is no share; the whole is then read in one piece, which says why.
+class SharedManifest {
+public:
+    /// \param readers how many there are; the shares are as many or more, and not large
+    SharedManifest(std::string file, std::size_t readers);
+
+    /// None where it can only be read in one piece.
+    [[nodiscard]] std::size_t shares() const { return shares_; }
+    [[nodiscard]] std::optional<ManifestShare> read(std::size_t share) const;
+    /// \param parts all shares. \throw as read_clash_manifest()
+    [[nodiscard]] ClashManifest join(std::vector<std::optional<ManifestShare>> parts) const;
+
+private:
+    std::string file_;
+    std::optional<PartsPlace> place_;
+    std::size_t shares_ = 0;
+};
 
 /// The place of a part in the list. \throw UsageError where there is none
 [[nodiscard]] std::uint32_t part_number(const ClashManifest& manifest, const std::string& id);

@@ -102,6 +102,24 @@ std::optional<std::vector<LatticePoint>> coordinates_of(const std::vector<IntVec
     return out;
 }
 
+using DoublePoint = std::array<double, 3>;
+
+// Over the denominator and 2^bits, up to a relative error of 2^-50.
+std::vector<DoublePoint> quotients(const std::vector<IntVector>& points,
+                                   const BoundedInt& denominator, int bits) {
+    const BoundedInt::Scaled d = denominator.scaled();
+    std::vector<DoublePoint> out;
+    out.reserve(points.size());
+    for (const IntVector& p : points) {
+        DoublePoint& q = out.emplace_back();
+        for (std::size_t i = 0; i < 3; ++i) {
+            const BoundedInt::Scaled n = p[i].scaled();
+            q[i] = std::ldexp(n.mantissa / d.mantissa, n.exponent - d.exponent - bits);
+        }
+    }
+    return out;
+}
+
 class Overlapping {
 public:
     Overlapping(const InterferenceModel& a, const Pose& pose_a, const InterferenceModel& b,
@@ -177,6 +195,56 @@ private:
     }
 
     void round() {
+        if (!a_.all_lattice || !b_.all_lattice || !round_in_doubles()) round_in_rationals();
+    }
+
+    // As good as in rationals but for a last bit: numerators and denominator are exact, so a
+    // coordinate of 45 bits has an error below 2^-6. False where it is not clear whether a corner
+    // moves at all.
+    bool round_in_doubles() {
+        constexpr double error = 0x1p-6;
+        const int bits = std::max(fraction_bits_of(a_), fraction_bits_of(b_));
+        const std::vector<DoublePoint> a = quotients(images(a_, RelativePose(), bits), BoundedInt(1), bits);
+        const std::vector<DoublePoint> b =
+            quotients(images(b_, to_a_, bits), to_a_.denominator(), bits);
+        double largest = 0;
+        for (const auto* points : {&a, &b})
+            for (const DoublePoint& p : *points)
+                for (const double x : p) largest = std::max(largest, std::abs(x));
+        if (largest == 0) return false;
+        const int exponent = rounded_exponent(largest);
+        const int finer = a_.brep.lattice().exponent - exponent;
+        double move = 0;
+        const auto rounded = [&](const std::vector<DoublePoint>& points) {
+            std::vector<LatticePoint> out;
+            out.reserve(points.size());
+            for (const DoublePoint& p : points) {
+                std::array<std::int64_t, 3> c{};
+                for (std::size_t i = 0; i < 3; ++i) {
+                    const double x = std::ldexp(p[i], finer);
+                    c[i] = std::llround(x);
+                    move = std::max(move, std::abs(x - static_cast<double>(c[i])));
+                }
+                out.push_back({c[0], c[1], c[2]});
+            }
+            return out;
+        };
+        const auto points_a = rounded(a);
+        const auto points_b = rounded(b);
+        if (move <= error) return false;
+        result_.max_move = std::ldexp(move + error, exponent);
+        result_.is_exact = false;
+        intersect(Lattice{exponent}, points_a, points_b, Embedding::Resolve);
+        return true;
+    }
+
+    // Of a lattice that is fine enough for coordinates up to `largest`, in units of A's.
+    [[nodiscard]] int rounded_exponent(double largest) const {
+        const int bits = std::ilogb(largest) + 1;
+        return ceil_to_unit(a_.brep.lattice().exponent - (coordinate_bits - growth_bits - bits));
+    }
+
+    void round_in_rationals() {
         const auto places = [](const InterferenceModelData& model, const RelativePose& pose) {
             std::vector<ExactPlace> out;
             for (const Point& p : model.brep.points())
@@ -190,10 +258,8 @@ private:
             for (const ExactPlace& p : *points)
                 for (const ExactRational& x : p.c)
                     largest = std::max(largest, std::abs(x.to_double()));
-        const int bits = std::ilogb(largest) + 1;
-        const int unit = a_.brep.lattice().exponent;
-        const int exponent = ceil_to_unit(unit - (coordinate_bits - growth_bits - bits));
-        const int finer = unit - exponent;
+        const int exponent = rounded_exponent(largest);
+        const int finer = a_.brep.lattice().exponent - exponent;
         const auto rounded = [&](const std::vector<ExactPlace>& points) {
             std::vector<LatticePoint> out;
             for (const ExactPlace& p : points) {
