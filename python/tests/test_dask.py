@@ -2,6 +2,7 @@
 """Solids between processes of Dask: they are pickled as native files, so results are the same to the last bit."""
 import fractions
 import functools
+import operator
 
 import pytest
 
@@ -17,10 +18,6 @@ def drilled(plate, i):
 
 def ball(radius):
     return trisect.Solid.sphere(radius)
-
-
-def united(a, b):
-    return a | b
 
 
 def volume(solid):
@@ -44,9 +41,9 @@ def test_solids_go_to_workers_and_come_back(client):
 
 def test_results_stay_with_workers(client):
     parts = client.map(drilled, [trisect.Solid.box((i, 0, 0), (i + 1, 1, 1)) for i in range(4)], range(4), pure=False)
-    pairs = [client.submit(united, parts[i], parts[i + 1], pure=False) for i in (0, 2)]
-    whole = client.submit(united, *pairs, pure=False)
-    alone = functools.reduce(united, client.gather(parts))
+    pairs = [client.submit(operator.or_, parts[i], parts[i + 1], pure=False) for i in (0, 2)]
+    whole = client.submit(operator.or_, *pairs, pure=False)
+    alone = functools.reduce(operator.or_, client.gather(parts))
     assert client.submit(volume, whole).result() == volume(alone)
     assert isinstance(volume(alone), fractions.Fraction)
 
