@@ -6,7 +6,11 @@ import os
 import pathlib
 import signal
 import subprocess
+import tempfile
 import time
+
+
+PATIENCE = 20  # seconds
 
 
 def with_ranks(count, command):
@@ -44,27 +48,40 @@ class Killer:
     def __init__(self, ranks, choice):
         self.ranks, self.choice, self.killed = ranks, choice, collections.Counter()
 
+    def has_killed(self, kills):
+        """So many of each kind."""
+        kinds = ('mpirun', 'a rank') if self.ranks else ('the command',)
+        return all(self.killed[kind] >= kills for kind in kinds)
+
     def kill_one(self, process):
         """Kills the process or one of its ranks, and waits until all of them have ended."""
         children = children_of(process.pid) if self.ranks else []
-        victim = self.choice.choice([process.pid, *children])
+        victim = self.choice.choice(children) if children and self.choice.random() < 0.5 else process.pid
         self.killed['mpirun' if self.ranks and victim == process.pid else
                     'a rank' if self.ranks else 'the command'] += 1
         with contextlib.suppress(ProcessLookupError):  # it has just ended
             os.kill(victim, signal.SIGKILL)
-        process.wait()
+        try:
+            process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:  # mpirun may wait for ever where a rank dies while it starts
+            self.killed['mpirun that did not end'] += 1
+            process.kill()
+            process.wait()
         while any(map(is_running, children)):
             time.sleep(0.01)
 
     def run_to_the_end(self, command, whole):
-        """Again and again, until one run of about `whole` seconds is not killed."""
+        """Again and again, until one run of about `whole` seconds is not killed; what it wrote to its stderr."""
         for _ in range(1000):
-            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            try:
-                process.wait(self.choice.uniform(0.05, 1.1) * whole)
-                return
-            except subprocess.TimeoutExpired:
-                self.kill_one(process)
+            with tempfile.TemporaryFile('w+') as said:
+                process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=said)
+                try:
+                    process.wait(self.choice.uniform(0.05, 1.1) * whole)
+                    said.seek(0)
+                    return said.read()
+                except subprocess.TimeoutExpired:
+                    self.kill_one(process)
+        return 'never ended'
 
     def __str__(self):
         return ', '.join(f'{number} of {name}' for name, number in self.killed.items())

@@ -11,7 +11,7 @@ namespace trisect::app {
 void RankSlabCommand::declare(CLI::App& app) {
     const auto add = [&](const char* name, const char* help) {
         CLI::App& command = *app.add_subcommand(name, help);
-        command.add_option("A B", options_.inputs, "binary STL or binary PLY files, two or more")
+        command.add_option("A B", options_.inputs, "meshes or native files, two or more")
             ->required()
             ->expected(2, 1 << 20);
         command.add_option("-o,--output", options_.output, "result, .ply or .stl")->required();

@@ -103,6 +103,9 @@ void RankSlabs::survey() {
         }
     });
     has_folder_ = true;
+    step("survey", [&] {
+        if (is_first()) slab_run_.gather();
+    });
     const auto ranks = static_cast<std::size_t>(Ranks::count());
     step("survey", [&] {
         if (!slab_run_.has_plan())

@@ -2,6 +2,7 @@
 #include "slab_plan.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -64,11 +65,21 @@ std::string job_of(const SlabOptions& options) {
     return out;
 }
 
+std::string gathered_name(const SlabOptions& options, std::size_t operand) {
+    return fmt::format("{}/operand-{:05}", options.folder, operand);
+}
+
+std::unique_ptr<TriangleStream> open_operand(const SlabOptions& options, std::size_t operand) {
+    const std::string gathered = gathered_name(options, operand);
+    return std::filesystem::exists(gathered) ? TriangleStream::open_gathered(gathered)
+                                             : TriangleStream::open(options.inputs[operand]);
+}
+
 std::vector<Survey> survey_share(const SlabOptions& options, std::size_t share,
                                  std::size_t shares) {
     std::vector<Survey> out;
-    for (const std::string& name : options.inputs)
-        out.push_back(survey_of(*TriangleStream::open(name), name, share, shares));
+    for (std::size_t k = 0; k < options.inputs.size(); ++k)
+        out.push_back(survey_of(*open_operand(options, k), options.inputs[k], share, shares));
     return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 
 #include "slabs.h"
 #include "survey.h"
+#include "triangle_stream.h"
 
 namespace trisect::app {
 
@@ -41,6 +43,12 @@ struct SlabPlan {
 /// Which job a plan is for: the operation and the files, as they are on the disk now.
 /// \throw Error (Input) where a file is missing
 [[nodiscard]] std::string job_of(const SlabOptions& options);
+
+/// Where the corners of an operand are that cannot be read in pieces.
+[[nodiscard]] std::string gathered_name(const SlabOptions& options, std::size_t operand);
+/// Of its own file, or of the gathered one if there is one.
+[[nodiscard]] std::unique_ptr<TriangleStream> open_operand(const SlabOptions& options,
+                                                           std::size_t operand);
 
 /// One pass over a share of every operand.
 /// \throw InputError, UnsupportedError; Error (InvalidSolid) for coordinates that are not finite

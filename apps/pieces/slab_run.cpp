@@ -20,6 +20,7 @@
 #include <trisect/bsp/native_file.h>
 #include <trisect/kernel/error.h>
 
+#include "gathered_file.h"
 #include "piece.h"
 #include "piecewise_file.h"
 #include "slab_mesh.h"
@@ -114,6 +115,24 @@ void make_folder(const std::string& name) {
     if (failed) throw Error(ErrorCode::Input, name + ": cannot be made: " + failed.message());
 }
 
+// What says whose it is goes last: the next run must know what a killed one left.
+void remove_folder(const std::string& name) {
+    std::vector<std::filesystem::path> others;
+    for (const auto& entry : std::filesystem::directory_iterator(name))
+        if (!entry.path().filename().string().starts_with("job")) others.push_back(entry.path());
+    for (const std::filesystem::path& p : others) std::filesystem::remove_all(p);
+    std::filesystem::remove_all(name);
+}
+
+bool can_be_streamed(const std::string& name) {
+    try {
+        (void)TriangleStream::open(name);
+        return true;
+    } catch (const UnsupportedError&) {
+        return false;
+    }
+}
+
 }  // namespace
 
 // Its first file says of which job it is, so it is known from the beginning.
@@ -132,12 +151,20 @@ void SlabRun::begin() {
             take_plan();
             return;
         }
-        std::filesystem::remove_all(options_.folder);
+        remove_folder(options_.folder);
     }
     make_folder(options_.folder);
     OutputStream out(options_.folder + "/job");
     out.write(job_.data(), job_.size());
     out.finish();
+}
+
+void SlabRun::gather() const {
+    for (std::size_t k = 0; k < options_.inputs.size(); ++k) {
+        const std::string name = gathered_name(options_, k);
+        if (!std::filesystem::exists(name) && !can_be_streamed(options_.inputs[k]))
+            gather_triangles(options_.inputs[k], name);
+    }
 }
 
 bool SlabRun::has_plan() const { return read_plan(options_.folder + "/plan", job_).has_value(); }
@@ -159,6 +186,7 @@ void SlabRun::decide(std::size_t shares) {
 
 void SlabRun::plan() {
     begin();
+    gather();
     if (has_plan()) return;
     survey(0, 1);
     decide(1);
@@ -196,7 +224,7 @@ bool SlabRun::distribute(std::size_t share, std::size_t shares) {
     const Slabs& slabs = plan_.slabs;
     bool fits = true;
     for (std::size_t k = 0; k < options_.inputs.size(); ++k) {
-        const auto stream = TriangleStream::open(options_.inputs[k]);
+        const auto stream = open_operand(options_, k);
         for (std::size_t i = 0; i < count(); ++i) std::filesystem::remove(scratch(i, k, share));
         Distributor out(count(), stream->is_single(),
                         [&](std::size_t i) { return scratch(i, k, share); });
@@ -230,7 +258,7 @@ Solid SlabRun::operand_in(std::size_t slab, std::size_t operand, std::size_t sha
     const Slabs& slabs = plan_.slabs;
     SlabMesh mesh({slabs.axis(), slabs.low(slab) - slabs.margin(),
                    slabs.high(slab) + slabs.margin(), slabs.quantum(), slabs.bound()});
-    const bool single = TriangleStream::open(options_.inputs[operand])->is_single();
+    const bool single = open_operand(options_, operand)->is_single();
     std::uint64_t bytes = 0;
     for (std::size_t s = 0; s < shares; ++s)
         bytes += std::filesystem::file_size(scratch(slab, operand, s));
@@ -306,8 +334,11 @@ void SlabRun::clean() const {
     std::ifstream file(options_.folder + "/job");
     std::string job;
     if (!std::getline(file, job) || job != job_) return;
-    std::error_code ignored;
-    std::filesystem::remove_all(options_.folder, ignored);
+    try {
+        remove_folder(options_.folder);
+    } catch (const std::filesystem::filesystem_error&) {
+        return;  // the result is there
+    }
 }
 
 }  // namespace trisect::app

@@ -17,8 +17,8 @@ namespace trisect::app {
 
 /// The steps of one job, for one process or many that see one folder.
 ///
-///   1. begin() once; then, where no plan was taken over, survey() every share, and decide() once:
-///      one pass over the operands decides the walls.
+///   1. begin() and gather() once; then, where no plan was taken over, survey() every share, and
+///      decide() once: one pass over the operands decides the walls.
 ///   2. distribute() every share: a second pass writes the triangles near each slab.
 ///   3. evaluate() every slab, in any order: it becomes a piece.
 ///   4. joining() makes one mesh of all pieces, in steps of its own.
@@ -31,6 +31,8 @@ public:
     /// Makes the folder, or takes over the plan of a run that was interrupted, if wanted.
     void begin();
     [[nodiscard]] bool has_plan() const;
+    /// Operands that cannot be read in pieces, unless they were gathered already.
+    void gather() const;
     void survey(std::size_t share, std::size_t shares) const;
     void decide(std::size_t shares);
     /// The steps until here, in one process.

@@ -228,6 +228,28 @@ private:
     std::uint64_t first_face_ = 0;
 };
 
+// --- Corners as they are in memory.
+
+class GatheredStream final : public TriangleStream {
+public:
+    explicit GatheredStream(const std::string& name) : file_(name) {}
+    [[nodiscard]] std::uint64_t size() const override { return file_.size() / sizeof(Corners); }
+    [[nodiscard]] bool is_single() const override { return false; }
+    void read(std::uint64_t begin, std::uint64_t end,
+              const std::function<void(std::uint64_t, const Corners&)>& take) const override {
+        std::vector<Corners> corners(records_at_once);
+        for (std::uint64_t at = begin; at < end; at += records_at_once) {
+            const std::uint64_t n = std::min(records_at_once, end - at);
+            file_.read(at * sizeof(Corners),
+                       {reinterpret_cast<char*>(corners.data()), n * sizeof(Corners)});
+            for (std::uint64_t i = 0; i < n; ++i) take(at + i, corners[i]);
+        }
+    }
+
+private:
+    InputFile file_;
+};
+
 enum class StreamKind : std::uint8_t { Stl, Ply, Other };
 
 StreamKind kind_of(const InputFile& file) {
@@ -257,6 +279,10 @@ std::unique_ptr<TriangleStream> TriangleStream::open(const std::string& name) {
     if (kind == StreamKind::Ply) return std::make_unique<PlyStream>(name);
     if (kind == StreamKind::Stl && is_named(name, ".stl")) return std::make_unique<StlStream>(name);
     throw UnsupportedError(name + ": only binary STL and binary PLY are read in pieces");
+}
+
+std::unique_ptr<TriangleStream> TriangleStream::open_gathered(const std::string& name) {
+    return std::make_unique<GatheredStream>(name);
 }
 
 bool TriangleStream::can_open(const std::string& name) {

@@ -33,6 +33,8 @@ public:
 
     /// \throw InputError for a file that is damaged, UnsupportedError for another format
     [[nodiscard]] static std::unique_ptr<TriangleStream> open(const std::string& name);
+    /// What gather_triangles() wrote. \throw InputError
+    [[nodiscard]] static std::unique_ptr<TriangleStream> open_gathered(const std::string& name);
     /// By its first bytes; false also where it cannot be read.
     [[nodiscard]] static bool can_open(const std::string& name);
 };

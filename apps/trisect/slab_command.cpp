@@ -79,7 +79,10 @@ Outcome slab_outcome(const Session& session, const BooleanOptions& options, cons
         {"file", options.output}, {"triangles", joined.triangles}, {"points", joined.points}};
     out.document["slabs"] = {{"count", plan.slabs.count()},
                              {"axis", std::string(1, axes[plan.slabs.axis()])},
-                             {"wall_points", joined.wall_points}};
+                             {"wall_points", joined.wall_points},
+                             {"loads", Json::array()}};
+    for (std::size_t i = 0; i < plan.slabs.count(); ++i)
+        out.document["slabs"]["loads"].push_back(plan.slabs.load(i));
     out.document["seconds"] = session.seconds();
     double total = 0;
     for (const auto& seconds : session.seconds()) total += seconds.get<double>();

@@ -83,6 +83,18 @@ class RankSlabs(unittest.TestCase):
             for side in ('only_first', 'only_second'):
                 self.assertLess(abs(diff[side]['volume']), 1e-9)
 
+    def test_other_formats(self):
+        expected = self.boolean([TRISECT], 'difference', 'slabs.ply', '--slabs', '4')
+        for ending in ('off', 'obj', 'trisect'):
+            other = self.folder / f'other.{ending}'
+            self.assertEqual(call([TRISECT, 'convert', self.b, '-o', str(other), '-q']).returncode, 0)
+            first, self.b = self.b, str(other)
+            for program in [[TRISECT]] + ([self.ranks(2)] if READY else []):
+                found = self.boolean(program, 'difference', 'found.ply', '--slabs', '4')
+                diff = json.loads(call([TRISECT, 'diff', str(found), str(expected), '--json']).stdout)
+                self.assertLess(abs(diff['only_first']['volume']) + abs(diff['only_second']['volume']), 1e-9)
+            self.b = first
+
     def test_memory_decides(self):
         out = self.folder / 'o.ply'
         done = call([TRISECT, 'union', self.a, self.b, '-o', str(out), '--json', '--max-memory', '2G'])

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Gathered file: the corners of an operand whose own file cannot be read in pieces.
+#pragma once
+
+#include <string>
+
+namespace trisect::app {
+
+/// Reads a mesh of any format, or a native file, as a whole, and writes the corners of its
+/// triangles for TriangleStream::open_gathered(). Exact.
+/// \throw InputError; LimitError where coordinates span more than 126 bits; UnsupportedError where
+/// corners of a native file are no doubles; InvalidSolid where it is not closed
+void gather_triangles(const std::string& name, const std::string& output);
+
+}  // namespace trisect::app
