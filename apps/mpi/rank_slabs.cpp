@@ -2,6 +2,7 @@
 #include "rank_slabs.h"
 
 #include <cerrno>
+#include <cstddef>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -36,6 +37,8 @@ int least_of_ranks(int mine) {
     return out;
 }
 
+constexpr std::size_t note_bytes = 4096;
+
 bool is_first() { return Ranks::rank() == 0; }
 
 }  // namespace
@@ -48,13 +51,23 @@ RankSlabs::RankSlabs(Session& session, const BooleanOptions& options)
 
 bool RankSlabs::has_failed() const { return std::filesystem::exists(slabs_.folder + "/failed"); }
 
+std::string RankSlabs::note_name() const {
+    return fmt::format("{}/failed-{}", slabs_.folder, Ranks::rank());
+}
+
+// Its bytes are there before the disk is full.
+void RankSlabs::reserve_note() const {
+    std::ofstream(note_name()) << std::string(note_bytes, ' ');
+}
+
 // The first one is kept.
 void RankSlabs::note_failure(int code, const std::string& message) const {
     if (!has_folder_) return;
-    const std::string name = fmt::format("{}/failed-{}", slabs_.folder, Ranks::rank());
-    std::ofstream(name) << code << '\n' << message;
+    std::fstream(note_name(), std::ios::in | std::ios::out)
+        << code << '\n'
+        << message.substr(0, note_bytes / 2);
     std::error_code taken;
-    std::filesystem::create_hard_link(name, slabs_.folder + "/failed", taken);
+    std::filesystem::create_hard_link(note_name(), slabs_.folder + "/failed", taken);
 }
 
 void RankSlabs::fail() {
@@ -62,7 +75,8 @@ void RankSlabs::fail() {
     int code = static_cast<int>(ErrorCode::Internal);
     file >> code;
     file.ignore();
-    const std::string message{std::istreambuf_iterator<char>(file), {}};
+    std::string message{std::istreambuf_iterator<char>(file), {}};
+    message.erase(message.find_last_not_of(' ') + 1);
     if (is_first() && !slabs_.resume) slab_run_.clean();
     throw Error(static_cast<ErrorCode>(code), message.empty() ? "a rank failed" : message);
 }
@@ -104,6 +118,7 @@ void RankSlabs::survey() {
     });
     has_folder_ = true;
     step("survey", [&] {
+        reserve_note();
         if (is_first()) slab_run_.gather();
     });
     const auto ranks = static_cast<std::size_t>(Ranks::count());

@@ -30,6 +30,8 @@ private:
     /// Makes a file that nobody else has made.
     [[nodiscard]] bool claim(std::size_t slab) const;
     [[nodiscard]] bool has_failed() const;
+    [[nodiscard]] std::string note_name() const;
+    void reserve_note() const;
     void note_failure(int code, const std::string& message) const;
     [[noreturn]] void fail();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Gathered file: the corners of an operand whose own file cannot be read in pieces.
+// Gathered file: the corners of an operand not read in pieces.
 #pragma once
 
 #include <string>

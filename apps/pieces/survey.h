@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Survey: where the triangles of an operand are.
+// Survey: the reach of all triangles of an operand.
 #pragma once
 
 #include <array>

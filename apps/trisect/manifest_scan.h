@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PartsPlace: where the parts are in the text of a manifest.
+// PartsPlace: the place of the parts in the text of a manifest.
 #pragma once
 
 #include <array>
