@@ -56,16 +56,13 @@ std::string RankSlabs::note_name() const {
 }
 
 // Its bytes are there before the disk is full.
-void RankSlabs::reserve_note() const {
-    std::ofstream(note_name()) << std::string(note_bytes, ' ');
-}
+void RankSlabs::reserve_note() const { std::ofstream(note_name()) << std::string(note_bytes, ' '); }
 
 // The first one is kept.
 void RankSlabs::note_failure(int code, const std::string& message) const {
     if (!has_folder_) return;
-    std::fstream(note_name(), std::ios::in | std::ios::out)
-        << code << '\n'
-        << message.substr(0, note_bytes / 2);
+    std::fstream(note_name(), std::ios::in | std::ios::out) << code << '\n'
+                                                            << message.substr(0, note_bytes / 2);
     std::error_code taken;
     std::filesystem::create_hard_link(note_name(), slabs_.folder + "/failed", taken);
 }
@@ -123,8 +120,7 @@ void RankSlabs::survey() {
     });
     const auto ranks = static_cast<std::size_t>(Ranks::count());
     step("survey", [&] {
-        if (!slab_run_.has_plan())
-            slab_run_.survey(static_cast<std::size_t>(Ranks::rank()), ranks);
+        if (!slab_run_.has_plan()) slab_run_.survey(static_cast<std::size_t>(Ranks::rank()), ranks);
     });
     step("walls", [&] {
         if (is_first() && !slab_run_.has_plan()) slab_run_.decide(ranks);

@@ -54,7 +54,8 @@ private:
         const SharedManifest manifest(options_.clash.manifest, ranks);
         for (auto i = static_cast<std::size_t>(Ranks::rank()); i < manifest.shares(); i += ranks)
             ranks_.send(0, Ranks::Manifest, bytes_of(SharedParts{i, manifest.read(i)}));
-        if (manifest.shares() == 0) ranks_.send(0, Ranks::Manifest, bytes_of(SharedParts{no_share, {}}));
+        if (manifest.shares() == 0)
+            ranks_.send(0, Ranks::Manifest, bytes_of(SharedParts{no_share, {}}));
     }
     void begin(const RankStart& start) {
         try {

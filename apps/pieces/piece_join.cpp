@@ -61,7 +61,8 @@ void require_same_edges(const WallOutline& lower, const WallLink& link, const Wa
     std::vector<WallEdge> ours;
     std::vector<WallEdge> theirs;
     for (const WallEdge& e : lower.edges) ours.push_back({link[e[1]], link[e[0]]});
-    for (const WallEdge& e : below.edges) theirs.push_back({e[0] - first_below, e[1] - first_below});
+    for (const WallEdge& e : below.edges)
+        theirs.push_back({e[0] - first_below, e[1] - first_below});
     std::ranges::sort(ours);
     std::ranges::sort(theirs);
     if (ours != theirs) fail_at_wall(wall);
@@ -70,9 +71,9 @@ void require_same_edges(const WallOutline& lower, const WallLink& link, const Wa
 /// A piece whose points have numbers in the whole: those on its lower wall are of the piece below.
 struct PlacedPiece {
     PieceFile file;
-    std::uint64_t lower = 0;           ///< how many points are on the lower wall
-    std::uint64_t first_below = 0;     ///< number of the first point of the piece below
-    std::uint64_t first = 0;           ///< number of the first other point
+    std::uint64_t lower = 0;        ///< how many points are on the lower wall
+    std::uint64_t first_below = 0;  ///< number of the first point of the piece below
+    std::uint64_t first = 0;        ///< number of the first other point
     std::uint64_t first_triangle = 0;
 };
 
@@ -94,7 +95,8 @@ public:
     [[nodiscard]] const JoinedMesh& made() const { return made_; }
     [[nodiscard]] const PlacedPiece& piece(std::size_t i) const { return pieces_[i]; }
     /// The pieces of a share: about so many triangles each, from the first to before the second.
-    [[nodiscard]] std::array<std::size_t, 2> pieces_of(std::size_t share, std::size_t shares) const {
+    [[nodiscard]] std::array<std::size_t, 2> pieces_of(std::size_t share,
+                                                       std::size_t shares) const {
         const auto begin_of = [&](std::size_t s) {
             const auto at = std::ranges::lower_bound(pieces_, made_.triangles * s / shares, {},
                                                      &PlacedPiece::first_triangle);
@@ -143,8 +145,8 @@ void write_faces(const PlacedPiece& p, const WallLink& link, OutputPart& out) {
     for_each_triangle(p, [&](const std::array<std::uint32_t, 3>& t) {
         std::array<char, ply_face_bytes> record{3};
         for (std::size_t i = 0; i < 3; ++i) {
-            const auto n = static_cast<std::uint32_t>(
-                t[i] < p.lower ? p.first_below + link[t[i]] : p.first + t[i] - p.lower);
+            const auto n = static_cast<std::uint32_t>(t[i] < p.lower ? p.first_below + link[t[i]]
+                                                                     : p.first + t[i] - p.lower);
             std::memcpy(record.data() + 1 + 4 * i, &n, sizeof n);
         }
         out.write(record);
@@ -238,8 +240,7 @@ void PieceJoin::write(std::size_t share, std::size_t shares) const {
     if (begin == end) return;
     const PlacedPiece& first = layout.piece(begin);
     if (!is_ply(files_)) {
-        OutputPart out(files_.unfinished,
-                       stl_header_bytes + first.first_triangle * stl_face_bytes);
+        OutputPart out(files_.unfinished, stl_header_bytes + first.first_triangle * stl_face_bytes);
         for (std::size_t i = begin; i < end; ++i) write_stl(layout.piece(i), out);
         out.finish();
         return;
@@ -250,8 +251,7 @@ void PieceJoin::write(std::size_t share, std::size_t shares) const {
     points.finish();
     OutputPart faces(files_.unfinished, header + layout.made().points * ply_point_bytes +
                                             first.first_triangle * ply_face_bytes);
-    for (std::size_t i = begin; i < end; ++i)
-        write_faces(layout.piece(i), layout.link(i), faces);
+    for (std::size_t i = begin; i < end; ++i) write_faces(layout.piece(i), layout.link(i), faces);
     faces.finish();
 }
 

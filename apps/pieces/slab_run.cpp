@@ -139,11 +139,9 @@ bool can_be_streamed(const std::string& name) {
 void SlabRun::begin() {
     if (!options_.natives.empty()) make_folder(options_.natives);
     if (std::filesystem::exists(options_.folder)) {
-        const bool is_known =
-            std::ranges::any_of(std::filesystem::directory_iterator(options_.folder),
-                                [](const auto& entry) {
-                                    return entry.path().filename().string().starts_with("job");
-                                });
+        const bool is_known = std::ranges::any_of(
+            std::filesystem::directory_iterator(options_.folder),
+            [](const auto& entry) { return entry.path().filename().string().starts_with("job"); });
         if (!is_known && !std::filesystem::is_empty(options_.folder))
             throw Error(ErrorCode::Usage,
                         options_.folder + ": is there already, and not of trisect");

@@ -34,7 +34,7 @@ namespace trisect::app {
 namespace {
 
 constexpr std::size_t manifest_readers = 16;  // as many threads have something to read
-constexpr std::size_t piece_size = 1024;  // pairs; journals of other sizes would not fit
+constexpr std::size_t piece_size = 1024;      // pairs; journals of other sizes would not fit
 
 ClashManifest read_by_threads(Session& session, const std::string& file) {
     const SharedManifest manifest(file, manifest_readers);

@@ -359,9 +359,8 @@ std::optional<ManifestShare> SharedManifest::read(std::size_t share) const {
 }
 
 ClashManifest SharedManifest::join(std::vector<std::optional<ManifestShare>> parts) const {
-    const bool is_whole = parts.size() == shares_ && std::ranges::all_of(parts, [](const auto& p) {
-        return p.has_value();
-    });
+    const bool is_whole = parts.size() == shares_ &&
+                          std::ranges::all_of(parts, [](const auto& p) { return p.has_value(); });
     if (!place_ || !is_whole) return read_clash_manifest(file_);
     try {
         return ManifestReader(file_).join(parts, *place_);

@@ -204,7 +204,8 @@ private:
     bool round_in_doubles() {
         constexpr double error = 0x1p-6;
         const int bits = std::max(fraction_bits_of(a_), fraction_bits_of(b_));
-        const std::vector<DoublePoint> a = quotients(images(a_, RelativePose(), bits), BoundedInt(1), bits);
+        const std::vector<DoublePoint> a =
+            quotients(images(a_, RelativePose(), bits), BoundedInt(1), bits);
         const std::vector<DoublePoint> b =
             quotients(images(b_, to_a_, bits), to_a_.denominator(), bits);
         double largest = 0;
