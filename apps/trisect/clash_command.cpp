@@ -18,6 +18,7 @@
 
 #include "clash_answer.h"
 #include "clash_files.h"
+#include "clash_gdml.h"
 #include "clash_id.h"
 #include "clash_journal.h"
 #include "clash_manifest.h"
@@ -229,7 +230,8 @@ CLI::App& add_clash_options(CLI::App& app, ClashOptions& options) {
         "clash", "all clashes between the parts of an assembly; exit code 1 if there are any");
     command
         ->add_option("MANIFEST", options.manifest,
-                     "parts and sets to compare (JSON), or a table of parts (CSV)")
+                     "parts and sets to compare (JSON), a table of parts (CSV), or a geometry of "
+                     "volumes in volumes (GDML)")
         ->required();
     command
         ->add_option(
@@ -247,6 +249,11 @@ CLI::App& add_clash_options(CLI::App& app, ClashOptions& options) {
     command->add_flag("--resume", options.resume, "go on where a run that was stopped ended");
     command->add_flag("--keep-going", options.keep_going,
                       "leave out what cannot be used, and list it in the report");
+    command
+        ->add_option("--facets", options.facets,
+                     "of a whole circle, in GDML: a multiple of 4 up to 3600")
+        ->type_name("N")
+        ->capture_default_str();
     add_operand_options(*command, options.operands);
     return *command;
 }
@@ -266,6 +273,13 @@ void add_clash_command(CLI::App& app, ClashOptions& options) {
 
 Outcome run_clash(Session& session, const ClashOptions& options) {
     check_clash_outputs(session, options);
+    if (options.manifest.ends_with(".gdml")) {
+#ifdef TRISECT_WITH_GDML
+        return run_gdml_clash(session, options);
+#else
+        throw UnsupportedError(options.manifest + ": Trisect was built without expat");
+#endif
+    }
     if (!options.shards.empty()) return merge_shards(session, options);
     session.plan(5);
     ClashRun run(session, options);

@@ -17,6 +17,7 @@ struct ClashReport {
     std::string manifest;          ///< name of the file
     std::string shard;             ///< "2/8", or empty
     Json run;                      ///< of a shard: what all of them have in common
+    Json geometry;                 ///< of GDML: what was compared, and what is proved
     std::vector<Json> clashes;     ///< in order of pairs, then sets
     std::vector<Json> missing;     ///< files that could not be used, with their parts
     std::vector<Json> unanswered;  ///< pairs without an answer

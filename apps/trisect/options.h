@@ -166,6 +166,7 @@ struct ClashOptions {
     std::vector<std::string> shards;  ///< reports of shards to make one of
     bool resume = false;
     bool keep_going = false;
+    std::uint32_t facets = 120;  ///< of a whole circle in GDML
 };
 
 struct MillOptions {

@@ -19,7 +19,7 @@ LAYERS = ('kernel', 'brep', 'bsp')
 SLOW = re.compile(r'trisect_add_test\([^()]*?\sSLOW\s([^()]*)\)')
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*"([^"]+)"', re.MULTILINE)
 # Folders that are not of tests, and whose headers are included by a path of their own.
-OUTSIDE = ('bench/', 'pieces/', 'scenes/', 'trisect/')
+OUTSIDE = ('bench/', 'gdml/', 'pieces/', 'scenes/', 'trisect/')
 
 
 def read_table(text, problem):

@@ -46,6 +46,7 @@ public:
         XML_SetCharacterDataHandler(parser_.get(), text);
         XML_SetStartDoctypeDeclHandler(parser_.get(), doctype);
         XML_SetStartNamespaceDeclHandler(parser_.get(), declare);
+        XML_SetUnknownEncodingHandler(parser_.get(), encoding, nullptr);
     }
 
     void read() {
@@ -112,6 +113,16 @@ private:
             r.handler_.declare(prefix != nullptr ? prefix : "", uri != nullptr ? uri : "");
         });
     }
+    /// ASCII by that name; expat has another one for it.
+    static int XMLCALL encoding(void*, const XML_Char* name, XML_Encoding* info) {
+        const std::string_view given(name);
+        if (given != "ASCII" && given != "ascii") return XML_STATUS_ERROR;
+        for (int i = 0; i < 256; ++i) info->map[i] = i < 128 ? i : -1;
+        info->data = nullptr;
+        info->convert = nullptr;
+        info->release = nullptr;
+        return XML_STATUS_OK;
+    }
     static void XMLCALL doctype(void* self, const XML_Char*, const XML_Char*, const XML_Char*,
                                 int) {
         guarded(self, [](Reader& r) {
@@ -150,6 +161,13 @@ std::optional<std::string_view> XmlElement::attribute(std::string_view in_space,
         if (split_name.space == in_space && split_name.local == wanted) return a[1];
     }
     return std::nullopt;
+}
+
+std::vector<std::pair<std::string_view, std::string_view>> XmlElement::attributes() const {
+    std::vector<std::pair<std::string_view, std::string_view>> out;
+    for (const char** a = attributes_; *a != nullptr; a += 2)
+        out.emplace_back(split(*a).local, a[1]);
+    return out;
 }
 
 std::string_view XmlElement::required(const InputText& source, std::string_view wanted) const {

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace trisect::detail {
 
@@ -25,6 +27,8 @@ public:
     [[nodiscard]] std::optional<std::string_view> attribute(std::string_view wanted) const;
     [[nodiscard]] std::optional<std::string_view> attribute(std::string_view in_space,
                                                             std::string_view wanted) const;
+    /// All of them, by names without their namespaces, in the order of the text.
+    [[nodiscard]] std::vector<std::pair<std::string_view, std::string_view>> attributes() const;
     /// \throw InputError at the element when it is not there
     [[nodiscard]] std::string_view required(const InputText& source, std::string_view wanted) const;
 
