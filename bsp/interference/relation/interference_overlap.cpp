@@ -279,7 +279,30 @@ private:
         const auto points_a = rounded(a);
         const auto points_b = rounded(b);
         result_.is_exact = result_.max_move == 0;
-        intersect(Lattice{exponent}, points_a, points_b, Embedding::Resolve);
+        intersect_rounded(Lattice{exponent}, points_a, points_b);
+    }
+
+    // Triangles whose corners came to lie on one line are left out by import.
+    void intersect_rounded(Lattice lattice, const std::vector<LatticePoint>& points_a,
+                           const std::vector<LatticePoint>& points_b) {
+        const auto solid = [&](const InterferenceModelData& model,
+                               const std::vector<LatticePoint>& points, bool is_mirror) {
+            PolygonMesh mesh;
+            for (const LatticePoint& p : points)
+                mesh.points.push_back({lattice.to_double(p.x.to_double()),
+                                       lattice.to_double(p.y.to_double()),
+                                       lattice.to_double(p.z.to_double())});
+            for (const auto& t : model.triangles)
+                mesh.add_triangle(t.vertex[0].index, t.vertex[is_mirror ? 2 : 1].index,
+                                  t.vertex[is_mirror ? 1 : 2].index);
+            SolidOptions options;
+            options.import.lattice = lattice;
+            options.embedding = Embedding::Resolve;
+            options.inside_out = InsideOut::Accept;
+            return Solid::from_mesh(mesh, options);
+        };
+        result_.scaled_solid =
+            evaluate(solid(a_, points_a, false) & solid(b_, points_b, to_a_.is_mirror()));
     }
 
     void intersect(Lattice lattice, std::vector<LatticePoint> points_a,

@@ -74,6 +74,20 @@ TEST(Overlaps, SayWhenCornersWereRounded) {
     EXPECT_FALSE(o.scaled_solid.is_empty());
 }
 
+// The notch is so small that its corners become one.
+TEST(Overlaps, RoundingMayFlattenTriangles) {
+    const double large = 0x1p40;
+    const InterferenceModel notched(
+        trisect::evaluate(box({0, 0, 0}, {large, large, large}).solid() -
+                          box({-1, -1, -1}, {0x1p-20, 0x1p-20, 0x1p-20}).solid()));
+    const auto cube = box({-large, -large, -large}, {large, large, large});
+    const Overlap o = overlap(cube, Pose(), notched, Pose::from_quaternion({2, 0, 0, 1}));
+    EXPECT_FALSE(o.is_exact);
+    EXPECT_LT(o.max_move, 1);
+    // One corner of the turned square is cut off, with a sixth of the area.
+    EXPECT_NEAR(o.volume.to_double() / (large * large * large), 5.0 / 6, 1e-9);
+}
+
 TEST(Overlaps, OfRandomScenesFitTheirRelations) {
     int exact = 0;
     for (std::uint64_t seed = 9000; seed < 9200; ++seed) {
