@@ -5,6 +5,13 @@
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/csg/csg_evaluate.h>
+#include <trisect/bsp/csg/csg_session.h>
+#include <trisect/kernel/error.h>
+
+#include <chrono>
+#include <filesystem>
+#include <system_error>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -25,11 +32,28 @@ CsgTree read_program(const std::string& name) {
 }
 
 void write_result(Session& session, const std::string& output, const Solid& solid,
-                  const ExactMesh& mesh) {
+                  const PolygonMesh& mesh) {
     if (has_exact_boundary(output))
         return session.write_output(output, exact_text(solid.to_brep()));
-    write_output_mesh(session, output, output_format(session, output), to_polygon_mesh(mesh));
+    write_output_mesh(session, output, output_format(session, output), mesh);
 }
+
+// A file as it was when this was made.
+class WatchedFile {
+public:
+    explicit WatchedFile(const std::string& name) : name_(name), was_(state()) {}
+    [[nodiscard]] bool has_changed() const { return state() != was_; }
+
+private:
+    using State = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
+    [[nodiscard]] State state() const {
+        std::error_code none;
+        return {std::filesystem::last_write_time(name_, none),
+                std::filesystem::file_size(name_, none)};
+    }
+    std::filesystem::path name_;
+    State was_;
+};
 
 std::string summary_of(const CsgReport& report, const Json& document) {
     double total = 0;
@@ -51,14 +75,113 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
         ->add_option("-o,--output", options.output,
                      "mesh, or exact boundary (.exact); '-' is the standard output")
         ->required();
+    command->add_flag("--watch", options.watch,
+                      "evaluate again whenever the program or a file that it reads changes, until "
+                      "interrupted; only what changed is evaluated");
     command->add_flag("--summary", options.summary,
                       "also numbers of nodes and shapes, volume and time");
 }
+
+namespace {
+
+Json document_of(const EvalOptions& options, const CsgReport& report) {
+    Json out;
+    out["schema"] = "trisect.eval/1";
+    out["input"] = options.input;
+    out["output"] = options.output;
+    out["nodes"] = report.nodes;
+    out["shapes"] = report.leaves;
+    out["different_shapes"] = report.meshes;
+    out["formulas"] = report.evaluations;
+    out["flat"] = report.is_flat;
+    out["remarks"] = report.remarks;
+    return out;
+}
+
+void say_remarks(Session& session, const CsgReport& report) {
+    for (const std::string& remark : report.remarks) session.note(remark);
+    if (report.is_flat)
+        session.note("the program describes a region of the plane: its prism of height 1");
+}
+
+// One evaluation, from the text to the output. Without measures, which take longer than an edit.
+Outcome eval_again(Session& session, const EvalOptions& options, CsgSession& kept,
+                   ChangeReport& change) {
+    const CsgTree tree = session.stage("read", [&] { return read_program(options.input); });
+    CsgReport report;
+    const Solid solid = session.interruptible_stage(
+        "evaluate", [&] { return kept.evaluate(tree, &report, &change); });
+    say_remarks(session, report);
+    const PolygonMesh mesh =
+        session.interruptible_stage("assemble", [&] { return solid.to_mesh(); });
+    session.stage("write", [&] { write_result(session, options.output, solid, mesh); });
+    Outcome out;
+    out.document = document_of(options, report);
+    out.document["triangles"] = mesh.face_count();
+    out.document["seconds"] = session.seconds();
+    return out;
+}
+
+// Seconds that a stage took since `before`.
+double seconds_in(const Session& session, const Json& before, const std::string& stage) {
+    return session.seconds().value(stage, 0.0) - before.value(stage, 0.0);
+}
+
+std::string said_of(const Session& session, const Json& before, const ChangeReport& change) {
+    const std::string what = change.evaluated_all
+                                 ? "all of it"
+                                 : fmt::format("{} shapes changed", change.changed_operands);
+    return fmt::format("evaluated in {:.3f} s ({}), assembled in {:.3f} s, written in {:.3f} s",
+                       seconds_in(session, before, "evaluate"), what,
+                       seconds_in(session, before, "assemble"),
+                       seconds_in(session, before, "write"));
+}
+
+// Evaluates whenever the program or a file that it reads has changed, until it is interrupted. What
+// is wrong with a program is said, and the output of the last one stays.
+Outcome watch(Session& session, const EvalOptions& options) {
+    CsgOptions how;
+    how.evaluate = session.evaluation_options(OperandOptions());
+    CsgSession kept(how);
+    Outcome last;
+    try {
+        while (true) {
+            const WatchedFile program(options.input);
+            const Json before = session.seconds();
+            try {
+                ChangeReport change;
+                last = eval_again(session, options, kept, change);
+                session.note(said_of(session, before, change));
+            } catch (const CancelledError&) {
+                throw;
+            } catch (const Error& error) {
+                session.note(error.what());
+            }
+            session.interruptible_stage("wait", [&] {
+                while (!session.supervisor().stop_flag() && !program.has_changed() &&
+                       !kept.have_files_changed())
+                    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                return true;
+            });
+        }
+    } catch (const CancelledError&) {
+        return last;
+    }
+}
+
+}  // namespace
 
 Outcome run_eval(Session& session, const EvalOptions& options) {
     if (!has_exact_boundary(options.output)) (void)output_format(session, options.output);
     check_outputs(session, {options.output});
     session.plan(4);
+    if (options.watch) {
+        if (options.input == "-" || options.output == "-" || options.summary)
+            throw UsageError(
+                "--watch takes files, not the standard input or output, and no "
+                "--summary");
+        return watch(session, options);
+    }
     const CsgTree tree = session.stage("read", [&] { return read_program(options.input); });
     CsgReport report;
     const Solid solid = session.interruptible_stage("evaluate", [&] {
@@ -66,27 +189,18 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         how.evaluate = session.evaluation_options(OperandOptions());
         return evaluate_csg(tree, how, &report);
     });
-    for (const std::string& remark : report.remarks) session.note(remark);
-    if (report.is_flat)
-        session.note("the program describes a region of the plane: its prism of height 1");
+    say_remarks(session, report);
     Outcome out;
+    out.document = document_of(options, report);
     // Assembled once: measures and the output take the same triangles.
     const ExactMesh mesh = session.interruptible_stage("measure", [&] {
         ExactMesh boundary = solid.to_exact_mesh();
-        out.document["schema"] = "trisect.eval/1";
-        out.document["input"] = options.input;
-        out.document["output"] = options.output;
-        out.document["nodes"] = report.nodes;
-        out.document["shapes"] = report.leaves;
-        out.document["different_shapes"] = report.meshes;
-        out.document["formulas"] = report.evaluations;
-        out.document["flat"] = report.is_flat;
         out.document["triangles"] = boundary.triangles.size();
         out.document["volume"] = volume(boundary);
-        out.document["remarks"] = report.remarks;
         return boundary;
     });
-    session.stage("write", [&] { write_result(session, options.output, solid, mesh); });
+    session.stage("write",
+                  [&] { write_result(session, options.output, solid, to_polygon_mesh(mesh)); });
     out.document["seconds"] = session.seconds();
     if (options.summary) out.remarks = summary_of(report, out.document);
     return out;

@@ -207,6 +207,7 @@ struct EvalOptions {
     std::string input;
     std::string output;
     bool summary = false;
+    bool watch = false;
 };
 
 struct TessellateOptions {

@@ -2,6 +2,7 @@
 #include <trisect/bsp/csg/csg_evaluate.h>
 
 #include <trisect/bsp/csg/csg_evaluator.h>
+#include <trisect/bsp/csg/csg_kept.h>
 #include <trisect/bsp/csg/csg_program.h>
 
 namespace trisect {
@@ -13,7 +14,8 @@ Solid evaluate_csg(const CsgTree& tree, const CsgOptions& options, CsgReport* re
     out.nodes = tree.nodes.size();
     const detail::CsgProgram program(tree);
     out.is_flat = program.dimension() == 2;
-    return detail::CsgEvaluator(program, options, out).run();
+    detail::CsgKept kept;
+    return detail::CsgEvaluator(program, options, out, kept).run();
 }
 
 }  // namespace trisect

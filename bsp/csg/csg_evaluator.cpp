@@ -35,8 +35,17 @@ std::vector<Outline> outlines_of(const CsgNode& node, const CsgArguments& argume
 
 }  // namespace
 
-Solid CsgEvaluator::run() {
-    return solid_of(any_of(program_.roots(), program_.dimension(), CsgFrame()));
+Expression CsgEvaluator::formula() {
+    return any_of(program_.roots(), program_.dimension(), CsgFrame());
+}
+
+// What is made of children, as a whole, for the next program.
+template <class Make>
+Expression CsgEvaluator::kept_formula(std::uint32_t n, const CsgFrame& frame, const Make& make) {
+    if (!kept_.is_across_programs()) return make();
+    const std::string key = csg_key(program_, n, frame);
+    if (const Expression* known = kept_.formula(key)) return *known;
+    return kept_.keep_formula(key, make());
 }
 
 void CsgEvaluator::remark(std::uint32_t n, const std::string& text) {
@@ -82,17 +91,17 @@ Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
         case CsgKind::Matrix:
             return turned(n, csg_matrix(program_.arguments(n), program_.dimension(n) == 2), frame);
         case CsgKind::Hull:
-            return hull(n, frame);
+            return kept_formula(n, frame, [&] { return hull(n, frame); });
         case CsgKind::Linear:
             return linear(n, frame);
         case CsgKind::Revolved:
-            return revolved(n, frame);
+            return kept_formula(n, frame, [&] { return revolved(n, frame); });
         case CsgKind::Minkowski:
         case CsgKind::Offset:
         case CsgKind::Projection:
-            return made(n, frame);
+            return kept_formula(n, frame, [&] { return made(n, frame); });
         case CsgKind::Resize:
-            return resized(n, frame);
+            return kept_formula(n, frame, [&] { return resized(n, frame); });
         case CsgKind::Import:
         case CsgKind::Solid:
             return shape(n, frame);
@@ -138,9 +147,12 @@ Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const Csg
     if (changes_axes(map) || is_single(n)) return children_of(n, {map, frame.low, frame.high});
     const CsgFrame straight{AffineMap(), frame.low, frame.high};
     const std::string key = csg_key(program_, n, straight, true);
-    auto it = solids_.find(key);
-    if (it == solids_.end()) it = solids_.emplace(key, solid_of(children_of(n, straight))).first;
-    return it->second.is_empty() ? it->second : transformed(it->second, map);
+    return kept_formula(n, frame, [&]() -> Expression {
+        const Solid* known = kept_.solid(key);
+        const Solid group =
+            known != nullptr ? *known : kept_.keep(key, solid_of(children_of(n, straight)));
+        return group.is_empty() ? group : transformed(group, map);
+    });
 }
 
 Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map) {
@@ -171,6 +183,7 @@ PolygonMesh CsgEvaluator::file_of(std::uint32_t n) {
     if (!options_.reads_files) in.fail(ErrorCode::Unsupported, "files are not read");
     const std::filesystem::path file = csg_file(in, options_.folder.value_or(program_.folder()));
     if (file.empty()) return {};
+    kept_.note_file(file);
     return at_node(n, [&] {
         return program_.kind(n) == CsgKind::Import ? csg_import(in, file) : csg_surface(in, file);
     });
@@ -179,22 +192,20 @@ PolygonMesh CsgEvaluator::file_of(std::uint32_t n) {
 Expression CsgEvaluator::shape(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame);
-    const auto it = solids_.find(key);
-    if (it != solids_.end()) return it->second;
+    if (const Solid* known = kept_.solid(key)) return *known;
     ++report_.meshes;
-    return solids_.emplace(key, placed(n, mesh_of(n), frame.map)).first->second;
+    return kept_.keep(key, placed(n, mesh_of(n), frame.map));
 }
 
 Expression CsgEvaluator::region(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame);
-    const auto it = regions_.find(key);
-    if (it != regions_.end()) return it->second;
+    if (const Expression* known = kept_.formula(key)) return *known;
     ++report_.meshes;
     std::vector<Outline> paths = outlines_of(program_.node(n), program_.arguments(n));
     if (paths.empty()) remark(n, "is empty");
     const Expression prism = at_node(n, [&] { return even_odd_prism(std::move(paths), frame); });
-    return regions_.emplace(key, prism).first->second;
+    return kept_.keep_formula(key, prism);
 }
 
 Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
@@ -208,8 +219,10 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
     const double low = in.truth("center", false) ? -height / 2 : 0;
     if (is_straight(in))
         return any_of(program_.node(n).children, 2, {frame.map, low, low + height});
-    const PlaneRegion base = flat_children_of(n);
-    return placed(n, csg_twisted(base, in, low, low + height), frame.map);
+    return kept_formula(n, frame, [&]() -> Expression {
+        const PlaneRegion base = flat_children_of(n);
+        return placed(n, csg_twisted(base, in, low, low + height), frame.map);
+    });
 }
 
 Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {

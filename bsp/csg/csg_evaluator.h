@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,17 +14,20 @@
 #include <trisect/bsp/csg/csg_evaluate.h>
 #include <trisect/bsp/csg/csg_extrude.h>
 #include <trisect/bsp/csg/csg_frame.h>
+#include <trisect/bsp/csg/csg_kept.h>
 #include <trisect/bsp/csg/csg_program.h>
 
 namespace trisect::detail {
 
-/// The program, the options and the report must outlive it.
+/// The program, the options, the report and what is kept must outlive it.
 class CsgEvaluator {
 public:
-    CsgEvaluator(const CsgProgram& program, const CsgOptions& options, CsgReport& report)
-        : program_(program), options_(options), report_(report) {}
+    CsgEvaluator(const CsgProgram& program, const CsgOptions& options, CsgReport& report,
+                 CsgKept& kept)
+        : program_(program), options_(options), report_(report), kept_(kept) {}
 
-    [[nodiscard]] Solid run();
+    [[nodiscard]] Expression formula();
+    [[nodiscard]] Solid run() { return solid_of(formula()); }
 
 private:
     void remark(std::uint32_t n, const std::string& text);
@@ -38,6 +40,8 @@ private:
                                     const CsgFrame& frame);
     [[nodiscard]] Expression children_of(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression expression_of(std::uint32_t n, const CsgFrame& frame);
+    template <class Make>
+    [[nodiscard]] Expression kept_formula(std::uint32_t n, const CsgFrame& frame, const Make& make);
     [[nodiscard]] Expression difference(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression intersection(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression turned(std::uint32_t n, const AffineMap& own, const CsgFrame& frame);
@@ -82,8 +86,7 @@ private:
     const CsgProgram& program_;
     const CsgOptions& options_;
     CsgReport& report_;
-    std::map<std::string, Solid> solids_;
-    std::map<std::string, Expression> regions_;
+    CsgKept& kept_;
 };
 
 }  // namespace trisect::detail

@@ -46,10 +46,9 @@ std::array<double, 3> factors_of(const CsgArguments& in, const Bounds& box, int 
 
 Expression CsgEvaluator::made(std::uint32_t n, const CsgFrame& frame) {
     const std::string key = csg_key(program_, n, CsgFrame());
-    auto it = solids_.find(key);
-    if (it == solids_.end())
-        it = solids_.emplace(key, at_node(n, [&] { return made_at_origin(n); })).first;
-    const Solid& solid = it->second;
+    const Solid* known = kept_.solid(key);
+    const Solid solid =
+        known != nullptr ? *known : kept_.keep(key, at_node(n, [&] { return made_at_origin(n); }));
     if (solid.is_empty() || is_at_origin(frame)) return solid;
     if (program_.dimension(n) == 3) return transformed(solid, frame.map);
     const PlaneRegion region = region_of_faces(solid, 1);
