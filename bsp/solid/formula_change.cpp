@@ -97,7 +97,7 @@ bool FormulaChange::add_operand(const Solid& solid) {
     ++operands_;
     if (solid.is_empty() || !bounded_) return false;
     try {
-        const std::optional<Bounds> own = bounds(solid);
+        const std::optional<trisect::Bounds> own = bounds(solid);
         if (!own) return true;  // whole space
         if (!box_) box_ = own;
         for (std::size_t k = 0; k < 3; ++k) {

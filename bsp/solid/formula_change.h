@@ -21,7 +21,7 @@ public:
     [[nodiscard]] bool is_bounded() const { return bounded_; }
     [[nodiscard]] std::size_t operand_count() const { return operands_; }
     /// Around all of them; nothing where the formulas are the same, or the operands are empty.
-    [[nodiscard]] const std::optional<Bounds>& box() const { return box_; }
+    [[nodiscard]] const std::optional<trisect::Bounds>& box() const { return box_; }
 
 private:
     using Nodes = std::vector<const ExpressionNode*>;
@@ -34,7 +34,7 @@ private:
 
     bool bounded_ = true;
     std::size_t operands_ = 0;
-    std::optional<Bounds> box_;
+    std::optional<trisect::Bounds> box_;
 };
 
 }  // namespace trisect::detail

@@ -239,7 +239,7 @@ void bind_least_distance(py::module_& m) {
                               "How near moving solids come to each other, as a proved interval.")
         .def_readonly("lower", &LeastDistance::lower, "At no time is the distance below this.")
         .def_readonly("upper", &LeastDistance::upper, "At `time` it is not above this.")
-        .def_readonly("time", &LeastDistance::time)
+        .def_readonly("time", &LeastDistance::time, "When the distance is at most `upper`.")
         .def_readonly("is_narrow", &LeastDistance::is_narrow,
                       "Whether the bounds are as close as requested.")
         .def_property_readonly(

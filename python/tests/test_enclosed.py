@@ -129,9 +129,15 @@ def test_least_distance(cube, wall):
     assert found.is_narrow and repr(found).startswith("<LeastDistance between ")
     last = trisect.distance(wall, None, cube, Pose.from_translation((0, 1, 0)))
     assert found.lower <= last.upper and found.upper - found.lower <= 1e-4 * found.upper
-    turn = EnclosedMotion.turning(Pose.from_translation((1.25, 0, 0.25)), (0, 0, 1), 20)
-    turned = trisect.least_distance(wall, EnclosedMotion(), cube, turn)
-    assert 0 < turned.lower <= turned.upper and turned.time == pytest.approx(1)
+    beside = Pose.from_translation((1.25, 0, 0.25))
+    turn = EnclosedMotion.turning(beside, (0, 0, 1), 10)
+    nearest = trisect.least_distance(wall, EnclosedMotion(), cube, turn)
+    angle = math.radians(10)
+    clearance = 1.5 - 2.25 * math.sin(angle) - math.cos(angle)  # of the corner (2.25, 1)
+    assert nearest.lower <= clearance * (1 + 1e-9) and nearest.upper >= clearance * (1 - 1e-9)
+    assert nearest.lower > 0 and nearest.time == pytest.approx(1)
+    through = trisect.least_distance(wall, EnclosedMotion(), cube, EnclosedMotion.turning(beside, (0, 0, 1), 20))
+    assert through.lower == 0 and through.upper < 1e-9
     assert trisect.least_distance(wall, Motion(), Solid(), Motion()) is None
     with pytest.raises(trisect.UsageError):
         trisect.least_distance(wall, Motion(), cube, down, relative=0)

@@ -157,7 +157,8 @@ void expect_same(const BrepIndex& a, const BrepIndex& b, const std::vector<Point
             const auto bounds = a.distance(points[i]);
             ASSERT_LE(bounds->lo, near->distance * (1 + 1e-12));
             ASSERT_GE(bounds->hi, near->distance * (1 - 1e-12));
-            ASSERT_LE(bounds->hi - bounds->lo, 1e-10);
+            // Mostly 1e-13; more where the nearest vertex is that of nearly parallel planes.
+            ASSERT_LE(bounds->hi - bounds->lo, 1e-9);
         }
     }
 }
