@@ -5,8 +5,8 @@
 // The system makes memory ready page by page, when it is touched for the first time. For arrays of
 // megabytes that are written once this takes longer than the writing: with pages of 4 kB a quarter
 // to a half of an import or an export of a million triangles, on a virtual machine more. Where
-// large pages are given to programs that ask for them, which is how Debian and Ubuntu are set up, one
-// call is enough.
+// large pages are given to programs that ask for them, which is how Debian and Ubuntu are set up,
+// one call is enough.
 #pragma once
 
 #include <cstddef>
