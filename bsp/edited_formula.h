@@ -28,8 +28,8 @@ struct ChangeReport {
 /// Operands are the same where they are copies of one Solid. Formulas are compared term by term: a
 /// term may be replaced, and terms of unions may come and go. All is evaluated in the beginning,
 /// where an unbounded operand changed, where what is far away changed, and where the operands need
-/// a finer lattice. Sets have trees at once, which for formulas that evaluate() need not cut into
-/// cells takes longer than that.
+/// a finer lattice, or are or were rounded to one. Sets have trees at once, which for formulas that
+/// evaluate() need not cut into cells takes longer than that.
 ///
 /// A set of an earlier formula stays what it is. Not to be used by several threads at once.
 class EditedFormula {

@@ -208,8 +208,8 @@ constexpr std::array all_rules{
     Rule{
         "many meshes",
         "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, or the first one's "
-        "has half of all; none with an index, not all across the axes or a leaf of prisms; no "
-        "limits",
+        "has half of all, or of such; none with an index, not all across the axes or a leaf of "
+        "prisms; no limits",
         "uncrossed facets, outlines", &Stats::filtered_leaves,
         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",

@@ -104,7 +104,7 @@ std::unique_ptr<EditedFormula::Last> EditedFormula::Last::all_of(const Expressio
     return out;
 }
 
-// Null where something is on another lattice then.
+// Null where something is on another lattice then, or is rounded: alone it may not be.
 std::unique_ptr<EditedFormula::Last> EditedFormula::Last::next(
     const Expression& f, const Bounds& box, const EvaluateOptions& options) const {
     const Solid window = detail::solid_of(std::make_shared<SolidState>(*detail::state_of(Solid())));
@@ -119,6 +119,7 @@ std::unique_ptr<EditedFormula::Last> EditedFormula::Last::next(
     auto out = std::make_unique<Last>(f);
     const SolidStates given = states;
     out->lattice = detail::move_to_common_lattice(states, options.lattices);
+    if (!lattice.lossless || !out->lattice.lossless) return nullptr;
     for (std::size_t i = 0; i < states.size(); ++i)
         if (stays[i] && states[i] != given[i]) return nullptr;
     const detail::ChangedBox change{slot_of(t.slots, detail::state_of(window)),

@@ -132,6 +132,17 @@ TEST(EditedFormula, AllIsEvaluatedWhereTheChangeIsNotBounded) {
     EXPECT_TRUE(report.evaluated_all);
 }
 
+TEST(EditedFormula, OperandsOfVeryDifferentSizeComeAndGo) {
+    const Solid small = Solid::from_mesh(trisect::make_icosphere(1.0 / 3, 2));
+    const Solid large =
+        Solid::from_mesh(trisect::make_box({0x1p80, 0, 0}, {0x1p81, 0x1p80, 0x1p80}));
+    const Solid near = Solid::from_mesh(trisect::make_box({0, 0, 0}, {1, 1, 1}));
+    EditedFormula edited;
+    const std::vector<Expression> chain{small | large, small | near, small | large, small - near};
+    for (const Expression& formula : chain)
+        EXPECT_EQ(exact_volume(edited.evaluate(formula)), exact_volume(evaluate(formula)));
+}
+
 // A plate with pins, of which one moves.
 Expression plate(double x_of_one) {
     static const Solid base = Solid::from_mesh(trisect::make_box({0, 0, 0}, {64, 64, 1}));
