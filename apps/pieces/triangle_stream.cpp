@@ -287,8 +287,8 @@ std::unique_ptr<TriangleStream> TriangleStream::open_gathered(const std::string&
 
 bool TriangleStream::can_open(const std::string& name) {
     try {
-        const StreamKind kind = kind_of(InputFile(name));
-        return kind == StreamKind::Ply || (kind == StreamKind::Stl && is_named(name, ".stl"));
+        (void)open(name);
+        return true;
     } catch (const Error&) {
         return false;
     }

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] static std::unique_ptr<TriangleStream> open(const std::string& name);
     /// What gather_triangles() wrote. \throw InputError
     [[nodiscard]] static std::unique_ptr<TriangleStream> open_gathered(const std::string& name);
-    /// By its first bytes; false also where it cannot be read.
+    /// Whether open() would; by the file's header.
     [[nodiscard]] static bool can_open(const std::string& name);
 };
 

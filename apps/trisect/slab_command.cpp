@@ -28,14 +28,16 @@ void add_slab_options(CLI::App& command, BooleanOptions& options) {
 
 bool wants_slabs(const Session& session, const BooleanOptions& options) {
     if (options.slabs != 0 || options.resume || !options.pieces.empty()) return true;
-    if (session.options().max_memory == 0 || options.faces || options.source_faces ||
-        options.repair || options.exact || !options.boundary.empty())
+    const CommonOptions& common = session.options();
+    if (common.max_memory == 0 || options.faces || options.source_faces || options.repair ||
+        options.exact || !options.boundary.empty() || common.lattice || common.format ||
+        common.input_format)
         return false;
     SlabOptions asked;
     asked.operation = options.operation;
     asked.inputs = options.inputs;
     asked.output = options.output;
-    asked.memory = session.options().max_memory;
+    asked.memory = common.max_memory;
     return needs_slabs(asked);
 }
 

@@ -6,6 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/io/read_mesh.h>
+#include <trisect/brep/io/write_mesh.h>
+
 #include "process.h"
 #include "scratch.h"
 
@@ -61,6 +64,26 @@ TEST_F(BooleanCommand, OperandsAreMaterials) {
     EXPECT_EQ(document["accessors"][primitives[1]["indices"].get<std::size_t>()]["count"], 18);
     EXPECT_EQ(trisect({"difference", a_, b_, "-o", path("out.off")}).code, 0);
     EXPECT_EQ(trisect({"diff", path("out.off"), path("out.glb")}).code, 0);
+}
+
+// A limit that is far above what small files take changes nothing, in pieces or not.
+TEST_F(BooleanCommand, MemoryIsLimitedWhateverTheEncoding) {
+    const trisect::PolygonMesh mesh = trisect::read_mesh(a_);
+    for (const trisect::PlyEncoding encoding :
+         {trisect::PlyEncoding::Ascii, trisect::PlyEncoding::BinaryLittleEndian,
+          trisect::PlyEncoding::BinaryBigEndian}) {
+        trisect::WriteOptions options;
+        options.format = trisect::MeshFormat::Ply;
+        options.ply_encoding = encoding;
+        const std::string in = write("in.ply", trisect::format_mesh(mesh, options).bytes);
+        for (const char* out : {"out.ply", "out.stl"}) {
+            const Finished result =
+                trisect({"union", in, b_, "-o", path(out), "--max-memory", "2G"});
+            EXPECT_EQ(result.code, 0) << result.err;
+            const Finished same = trisect({"union", in, in, "-o", path(out), "--max-memory", "2G"});
+            EXPECT_EQ(same.code, 0) << same.err;
+        }
+    }
 }
 
 TEST_F(BooleanCommand, FirstBadInputIsReported) {
