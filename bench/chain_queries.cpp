@@ -4,8 +4,8 @@
 // results. A cut costs what changes; this is about whether queries do, too.
 //
 //     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined] [--interference]
-//                   [--small-holder] [--asked] [--repeat N] [--rebuild N] [--models] [--bytes]
-//                   [--memory] [--count N]
+//                   [--small-holder] [--asked] [--repeat N] [--chains N] [--rebuild N] [--models]
+//                   [--bytes] [--memory] [--count N]
 //
 // --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
 // cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
@@ -17,6 +17,8 @@
 // a while; else each cut is where no question came near before.
 // --repeat: the same chain so many times; of each cut and question the least time counts, so that
 // the worst one is of the work and not of the machine.
+// --chains: so many chains, each from the uncut stock at places of its own; means are of all. What
+// questions made of the stock stays.
 // --rebuild: after every so many cuts also what making everything anew takes, CGAL and FCL beside
 // it; with --models an InterferenceModel, too.
 // --bytes: of facts that each version adds. Walks through the whole tree after each cut, so times
@@ -66,6 +68,7 @@ struct Options {
     int rebuild = 0;
     int count = 0;
     int repeat = 1;
+    int chains = 1;
     bool asked = false;
     bool path = false;
     bool refined = true;
@@ -93,6 +96,8 @@ Options parsed(int argc, char** argv) {
             o.count = number();
         } else if (arg == "--repeat") {
             o.repeat = std::max(1, number());
+        } else if (arg == "--chains") {
+            o.chains = std::max(1, number());
         } else if (arg == "--asked") {
             o.asked = true;
         } else if (arg == "--path") {
@@ -142,11 +147,19 @@ public:
         if (o.refined) stock_.refine();
         (void)BrepIndex(stock_);
         if (o.asked) ask_all_over();
-        if (o.interference) query_.emplace(stock_, holder_);
         if (o.bytes) facts_.emplace(stock_);
     }
 
     void run() {
+        const Solid uncut = stock_;
+        for (int chain = 0; chain < options_.chains; ++chain) {
+            stock_ = uncut;
+            if (options_.interference) query_.emplace(stock_, holder_);
+            cut_all();
+        }
+    }
+
+    void cut_all() {
         for (int i = 1; i <= options_.cuts; ++i) {
             counters_.cut = i;
             const bool counted = (i > first_counted && i <= first_counted + options_.count) ||

@@ -95,20 +95,22 @@ void SolidSides::visit_lane(ObbId lane, Near near) {
 void SolidSides::visit(ObbId box, Near near) {
     const std::uint32_t node = a_.boxes.child(box).node();
     const std::size_t before = near_.size();
+    // Of each near box the lanes that it meets.
+    const std::size_t first = lanes_met_.size();
+    for (std::size_t i = near.begin; i < near.end; ++i)
+        lanes_met_.push_back(pose_.overlaps(other_.boxes.box(near_[i]), a_.boxes.nodes[node]));
     for (std::uint32_t k = 0; k < 4 && !sides_.are_both(); ++k) {
         if (!(a_.boxes.nodes[node].half[0][k] >= 0)) continue;
-        const ObbId lane = ObbId::of(node, k);
-        const OrientedBox b = a_.boxes.box(lane);
         Near met{near_.size(), 0};
         for (std::size_t i = near.begin; i < near.end; ++i) {
             const ObbId id = near_[i];
-            const unsigned hits = pose_.overlaps(other_.boxes.nodes[id.node()], b);
-            if ((hits >> id.lane() & 1U) != 0) near_.push_back(id);
+            if ((lanes_met_[first + i - near.begin] >> k & 1U) != 0) near_.push_back(id);
         }
         met.end = near_.size();
-        visit_lane(lane, met);
+        visit_lane(ObbId::of(node, k), met);
         near_.resize(before);
     }
+    lanes_met_.resize(first);
 }
 
 namespace {

@@ -69,6 +69,7 @@ private:
     double scale_ = 0;  // a little less than the scale of the map
     std::optional<RelativePose> exact_;
     std::vector<ObbId> near_;
+    std::vector<unsigned> lanes_met_;
     std::vector<PolygonId> on_;
     Sides sides_;
 };
