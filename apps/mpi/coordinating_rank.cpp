@@ -7,20 +7,26 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <utility>
 
 #include "model_cache.h"
 #include "trisect/clash_command.h"
+#include "trisect/clash_id.h"
 #include "trisect/clash_output.h"
 #include "trisect/clash_picture.h"
+#include "trisect/clash_tiles.h"
 
 namespace trisect::app {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+// Neighbours within a region are routed and divided together; there are many more than ranks.
+constexpr double boxes_of_a_region = 2048;
 
 // A stopped run has no more: whoever stopped it may end it.
 constexpr double patience_of_a_stop = 0.5;
@@ -37,22 +43,28 @@ CoordinatingRank::CoordinatingRank(Session& session, const RankClashOptions& opt
     : session_(session),
       options_(options),
       is_open_(is_open),
+      station_(session, options, ranks_),
       all_(static_cast<std::size_t>(Ranks::count())) {}
 
 Outcome CoordinatingRank::run() {
-    session_.plan(4);
+    session_.plan(5);
     try {
         session_.stage("manifest", [&] { begin(); });
-        session_.interruptible_stage("pairs", [&] {
-            hand_out();
-            return 0;
-        });
+        const auto interruptible = [&](const char* stage, const std::function<void()>& work) {
+            session_.interruptible_stage(stage, [&] {
+                work();
+                return 0;
+            });
+        };
+        interruptible("files", [&] { read_files(); });
+        interruptible("divide", [&] { divide(); });
+        interruptible("pairs", [&] { attend([] { return false; }); });
         end_ranks({});
     } catch (...) {
         const std::exception_ptr reason = std::current_exception();
         write_partial();
         end_ranks(patience_of_a_stop);
-        local_.reset();
+        station_.stop();
         std::rethrow_exception(reason);
     }
     if (const auto& failure = coordinator_->failure()) {
@@ -65,60 +77,121 @@ Outcome CoordinatingRank::run() {
     return outcome(report);
 }
 
-// Every rank reads some shares; all see the same file, so this rank knows how many will come.
-ClashManifest CoordinatingRank::read_manifest() {
-    const SharedManifest manifest(options_.clash.manifest, all_.size());
-    std::vector<std::optional<ManifestShare>> shares(manifest.shares());
-    std::size_t missing = shares.size();
-    const auto take_message = [&] {
-        const auto message = ranks_.receive();
-        if (!message) return false;
-        SharedParts share = shared_parts_of(message->bytes);
-        if (share.number >= shares.size()) {
-            missing = 0;
-            return false;
+void CoordinatingRank::read_whole_manifest() {
+    manifest_ = read_clash_manifest(options_.clash.manifest);
+    manifest_.all_parts = manifest_.parts.size();
+    station_.take_parts(std::exchange(manifest_.parts, {}));
+    start_.is_divided = false;
+}
+
+// What all ranks have read of it, without the parts. Where there is anything odd, this rank reads
+// the whole, which says what.
+void CoordinatingRank::read_manifest() {
+    station_.begin();
+    attend([&] { return summaries_.size() == all_.size(); });
+    const auto is_odd = [](const ManifestSummary& s) { return !s.is_whole || s.has_twice; };
+    if (std::ranges::any_of(summaries_, is_odd)) return read_whole_manifest();
+    ManifestSummary all;
+    std::vector<std::string> blocks;
+    for (const ManifestSummary& s : summaries_) {
+        all.parts += s.parts;
+        all.files.insert(all.files.end(), s.files.begin(), s.files.end());
+        all.groups.insert(all.groups.end(), s.groups.begin(), s.groups.end());
+        for (const auto& [block, id] : s.blocks) {
+            blocks.resize(std::max<std::size_t>(blocks.size(), block + 1));
+            blocks[block] = id;
         }
-        shares[share.number] = std::move(share.parts);
-        if (missing != 0) --missing;
-        return true;
-    };
-    for (std::size_t i = 0; i < shares.size(); i += all_.size()) {
-        shares[i] = manifest.read(i);
-        if (missing != 0) --missing;
-        while (missing != 0 && take_message()) continue;
     }
-    for (Patience patience; missing != 0;) {
-        if (take_message()) continue;
-        if (session_.supervisor().stop_flag()) throw CancelledError();
-        patience.wait();
+    for (auto* const names : {&all.files, &all.groups}) {
+        std::ranges::sort(*names);
+        names->erase(std::ranges::unique(*names).begin(), names->end());
     }
-    return manifest.join(std::move(shares));
+    auto head = SharedManifest(options_.clash.manifest, all_.size())
+                    .head(std::move(all.files), std::move(all.groups), long_text_id(blocks));
+    if (!head) return read_whole_manifest();
+    manifest_ = std::move(*head);
+    manifest_.all_parts = all.parts;
 }
 
 // The journal of this rank has all that is taken over before the others are removed.
 void CoordinatingRank::begin() {
-    manifest_ = read_manifest();
-    RankStart start{options_.clash.manifest, clash_run_key(manifest_, options_.clash),
-                    manifest_.groups.size(), manifest_.sets};
+    read_manifest();
+    summaries_.clear();
+    start_.manifest = options_.clash.manifest;
+    start_.key = clash_run_key(manifest_, options_.clash);
+    start_.parts = manifest_.size();
+    start_.files = manifest_.files;
+    start_.groups = manifest_.groups;
+    start_.sets = manifest_.sets;
     const std::vector<std::string> old = journals();
     FinishedPieces done;
-    if (options_.clash.resume) done = read_journals(old, start.key);
-    local_ = std::make_unique<LocalRank>(std::make_unique<RankWorker>(
-        session_, options_.clash, options_.most_bytes, start, rank_journal(options_, 0), done));
+    if (options_.clash.resume) done = read_journals(old, start_.key);
+    coordinator_.emplace(session_, options_.clash, manifest_, done, all_.size());
+    station_.take_over(std::move(done));
+    ranks_.send(0, Ranks::Start, bytes_of(start_));
+    attend([&] { return all_.front().is_ready; });
+    if (coordinator_->is_over()) return;
     for (const std::string& name : old)
         if (name != rank_journal(options_, 0)) fs::remove(name);
-    coordinator_.emplace(session_, options_.clash, manifest_, done);
-    all_.front().asks_for = tasks_ahead;
     for (std::size_t r = 1; r < all_.size(); ++r)
-        ranks_.send(static_cast<int>(r), Ranks::Start, bytes_of(start));
+        ranks_.send(static_cast<int>(r), Ranks::Start, bytes_of(start_));
 }
 
-void CoordinatingRank::hand_out() {
+void CoordinatingRank::read_files() {
+    attend([&] { return coordinator_->has_all_files(); });
+    for (const ClashFile& file : coordinator_->files())
+        if (!file.failure.empty()) session_.note("left out: " + file.failure);
+}
+
+void CoordinatingRank::divide() {
+    if (coordinator_->is_over()) return;
+    send_to_all(Ranks::Files, bytes_of(coordinator_->files()));
+    attend([&] { return surveys_.size() == all_.size(); });
+    const PartSurvey* failed = nullptr;
+    for (const PartSurvey& s : surveys_)
+        if (s.code != 0 && (failed == nullptr || s.failed_part < failed->failed_part)) failed = &s;
+    if (failed != nullptr) coordinator_->fail(failed->code, failed->failure);
+    if (coordinator_->is_over()) return;
+    const RegionPlan plan = plan_regions();
+    send_to_all(Ranks::Regions, bytes_of(plan));
+    attend([&] { return tiles_.size() == all_.size(); });
+    if (coordinator_->is_over()) return;
+    std::vector<std::pair<std::uint32_t, std::string>> missing;
+    for (PartSurvey& s : surveys_)
+        for (auto& part : s.missing) missing.push_back(std::move(part));
+    surveys_.clear();
+    coordinator_->begin_tiles(plan, tiles_, std::move(missing));
+    tiles_.clear();
+}
+
+// By a sample in an order that is the same on any number of ranks.
+RegionPlan CoordinatingRank::plan_regions() {
+    std::vector<SampledBox> sample;
+    std::uint64_t boxes = 0;
+    for (PartSurvey& s : surveys_) {
+        boxes += s.boxes;
+        sample.insert(sample.end(), s.sample.begin(), s.sample.end());
+        s.sample = {};
+    }
+    std::ranges::sort(sample, {}, &SampledBox::hash);
+    std::vector<ClashBox> in_order;
+    for (const SampledBox& s : sample) in_order.push_back(s.box);
+    const auto all = static_cast<double>(boxes);
+    const double each = sample.empty() ? 1 : all / static_cast<double>(sample.size());
+    ClashLoads loads(in_order, each, ClashLimits(manifest_.sets, manifest_.groups.size()));
+    const double load = loads.all();
+    const double most = load / std::max(std::ceil(all / boxes_of_a_region), 1.0) * std::sqrt(2.0);
+    return {ClashDivision(std::move(loads), unbounded_space(), most),
+            ClashTiles::most_load(load, all)};
+}
+
+void CoordinatingRank::attend(const std::function<bool()>& is_done) {
     Patience patience;
-    while (!coordinator_->is_over()) {
-        const bool has_come = accept_all();
+    while (!is_done() && !(coordinator_ && coordinator_->is_over())) {
+        const bool has_done = station_.send_results();
+        const bool has_come = take_messages();
         const bool has_gone = give_all();
-        if (has_come || has_gone)
+        if (has_done || has_come || has_gone)
             patience.reset();
         else
             patience.wait();
@@ -127,83 +200,89 @@ void CoordinatingRank::hand_out() {
     }
 }
 
-bool CoordinatingRank::accept_all() {
+bool CoordinatingRank::take_messages() {
     bool has_come = false;
-    while (auto message = ranks_.receive()) {
+    while (const auto message = ranks_.receive()) {
+        has_come = true;
+        if (station_.take(*message)) continue;
+        if (message->tag == Ranks::Summary)
+            summaries_.push_back(manifest_summary_of(message->bytes));
+        if (message->tag == Ranks::Survey) surveys_.push_back(part_survey_of(message->bytes));
+        if (message->tag == Ranks::Tiles) tiles_.push_back(tile_survey_of(message->bytes));
         if (message->tag == Ranks::Result)
             accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
-        has_come = true;
-    }
-    while (auto result = local_ ? local_->take() : std::nullopt) {
-        accept(0, std::move(*result));
-        has_come = true;
     }
     return has_come;
 }
 
 void CoordinatingRank::accept(std::size_t rank, RankResult&& result) {
     Rank& from = all_[rank];
-    if (result.kind == RankResult::Kind::End) {
+    using Kind = RankResult::Kind;
+    if (result.kind == Kind::End) {
         from.has_ended = true;
         from.end = std::move(result);
         return;
     }
-    if (result.kind != RankResult::Kind::Ready) ++from.tasks;
-    ++from.asks_for;
-    from.seconds += result.seconds;
-    if (coordinator_) coordinator_->accept(std::move(result));
+    if (result.kind == Kind::Ready) from.is_ready = true;
+    if (result.kind == Kind::File || result.kind == Kind::Tile) {
+        ++from.tasks;
+        --from.has;
+        from.seconds += result.seconds;
+    }
+    if (coordinator_)
+        coordinator_->accept(std::move(result));
+    else if (result.kind == Kind::Failure)
+        throw Error(static_cast<ErrorCode>(result.code), result.message);
 }
 
 bool CoordinatingRank::give_all() {
+    if (!coordinator_) return false;
     bool has_gone = false;
+    const std::size_t ahead = coordinator_->ahead();
     // One to each in turn.
     for (bool again = true; again;) {
         again = false;
         for (std::size_t r = 0; r < all_.size(); ++r) {
-            RankTask task;
-            if (all_[r].asks_for == 0 || !coordinator_->next(task)) continue;
-            --all_[r].asks_for;
+            RankOrder order;
+            if (!all_[r].is_ready || all_[r].has >= ahead || !coordinator_->next(r, order))
+                continue;
+            ++all_[r].has;
             again = has_gone = true;
-            if (r == 0)
-                local_->give(std::move(task));
-            else
-                ranks_.send(static_cast<int>(r), Ranks::Task, bytes_of(task));
+            ranks_.send(static_cast<int>(r), Ranks::Order, bytes_of(order));
         }
     }
     return has_gone;
 }
 
+void CoordinatingRank::send_to_all(Ranks::Tag tag, const std::string& bytes) {
+    for (std::size_t r = all_.size(); r-- > 0;) ranks_.send(static_cast<int>(r), tag, bytes);
+}
+
 void CoordinatingRank::show_progress() {
+    if (!coordinator_) return;
     const std::size_t tiles = coordinator_->tiles();
     session_.supervisor().enter_stage(
         tiles == 0 ? "files"
                    : fmt::format("tiles {}/{}", tiles - coordinator_->tiles_left(), tiles),
-        tiles == 0 ? 1 : 2, 4);
+        tiles == 0 ? 1 : 3, 5);
 }
 
 // \param seconds how long to wait for ranks that may be no more
 void CoordinatingRank::end_ranks(std::optional<double> seconds) {
-    if (local_) {
-        local_->stop();
-        while (auto result = seconds ? std::nullopt : local_->take()) accept(0, std::move(*result));
-        all_.front().end = local_->worker().ended();
-    }
-    for (std::size_t r = 1; r < all_.size(); ++r)
-        ranks_.send(static_cast<int>(r), Ranks::Task, bytes_of(RankTask()));
+    for (std::size_t r = all_.size(); r-- > 0;)
+        if (r != 0 || !seconds)
+            ranks_.send(static_cast<int>(r), Ranks::Order, bytes_of(RankOrder()));
     const auto begin = Clock::now();
     Patience patience;
-    while (true) {
-        while (auto message = ranks_.receive())
-            if (message->tag == Ranks::Result)
-                accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
-        if (std::all_of(all_.begin() + 1, all_.end(), [](const Rank& r) { return r.has_ended; }))
-            break;
+    while (!std::all_of(all_.begin() + (seconds ? 1 : 0), all_.end(),
+                        [](const Rank& r) { return r.has_ended; })) {
+        if (take_messages()) continue;
         if (seconds && std::chrono::duration<double>(Clock::now() - begin).count() > *seconds)
             return;
         if (!seconds && session_.supervisor().stop_flag()) throw CancelledError();
         patience.wait();
     }
-    while (!ranks_.has_sent_all()) patience.wait();
+    ranks_.leave();
     is_open_ = false;
 }
 
@@ -278,6 +357,7 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
         Json r;
         r["tasks"] = rank.tasks;
         r["processor_seconds"] = rank.seconds;
+        r["all_processor_seconds"] = rank.end.seconds;
         r["memory"] = rank.end.memory;
         r["files_read"] = rank.end.reads;
         out.document["ranks"].push_back(std::move(r));
@@ -285,8 +365,8 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
     out.document["seconds"] = session_.seconds();
     const std::string remarks =
         fmt::format("{} parts of {} files in {} tiles on {} ranks, {} pairs of boxes, {} clashes",
-                    manifest_.parts.size(), manifest_.files.size(), coordinator_->tiles(),
-                    all_.size(), pairs, report.clashes.size());
+                    manifest_.size(), manifest_.files.size(), coordinator_->tiles(), all_.size(),
+                    pairs, report.clashes.size());
     out.remarks = out.remarks.empty() ? remarks : remarks + '\n' + out.remarks;
     return out;
 }

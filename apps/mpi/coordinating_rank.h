@@ -1,26 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // CoordinatingRank: rank 0.
-// It reads the manifest, hands out the work, and writes the report.
+// It orders the work of all ranks, its own as well, and writes the report.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "coordinator.h"
-#include "local_rank.h"
 #include "rank_clash_command.h"
+#include "rank_station.h"
 #include "ranks.h"
-#include "serving_rank.h"
 #include "trisect/session.h"
 
 namespace trisect::app {
 
-/// It does tasks as well, on a second thread. A run that fails or is stopped leaves what was found
-/// until then, and the cells that it did not come to, in a report of its own, and the journals of
-/// all ranks.
+/// A run that fails or is stopped leaves what was found until then, and the cells that it did not
+/// come to, in a report of its own, and the journals of all ranks.
 class CoordinatingRank {
 public:
     /// \param is_open set to false when no other rank waits any more
@@ -31,7 +29,8 @@ public:
 
 private:
     struct Rank {
-        int asks_for = 0;  ///< tasks
+        bool is_ready = false;
+        std::size_t has = 0;  ///< orders
         std::size_t tasks = 0;
         double seconds = 0;
         RankResult end;
@@ -39,11 +38,17 @@ private:
     };
 
     void begin();
-    [[nodiscard]] ClashManifest read_manifest();
-    void hand_out();
-    [[nodiscard]] bool accept_all();
+    void read_manifest();
+    void read_whole_manifest();
+    void read_files();
+    void divide();
+    /// Until it is so, or the run is over.
+    void attend(const std::function<bool()>& is_done);
+    [[nodiscard]] bool take_messages();
     void accept(std::size_t rank, RankResult&& result);
     [[nodiscard]] bool give_all();
+    void send_to_all(Ranks::Tag tag, const std::string& bytes);
+    [[nodiscard]] RegionPlan plan_regions();
     void show_progress();
     void end_ranks(std::optional<double> seconds);
     void write(const ClashReport& report);
@@ -56,10 +61,14 @@ private:
     const RankClashOptions& options_;
     bool& is_open_;
     Ranks ranks_;
+    RankStation station_;
     std::vector<Rank> all_;
-    ClashManifest manifest_;
+    std::vector<ManifestSummary> summaries_;
+    std::vector<PartSurvey> surveys_;
+    std::vector<TileSurvey> tiles_;
+    ClashManifest manifest_;  // with the parts of clashes
+    RankStart start_;
     std::optional<Coordinator> coordinator_;
-    std::unique_ptr<LocalRank> local_;
 };
 
 }  // namespace trisect::app

@@ -7,23 +7,42 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <filesystem>
 #include <utility>
 
 #include "trisect/clash_merge.h"
 
 namespace trisect::app {
+namespace {
 
-Coordinator::Coordinator(Session& session, const ClashOptions& options,
-                         const ClashManifest& manifest, const FinishedPieces& done)
+// Orders that a rank has ahead take at least so many seconds, unless they are too many.
+constexpr double seconds_ahead = 0.005;
+constexpr std::size_t least_ahead = 2;
+constexpr std::size_t most_ahead = 16;
+
+std::uint64_t size_of(const std::string& file) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file, error);
+    return error ? 0 : size;
+}
+
+}  // namespace
+
+Coordinator::Coordinator(Session& session, const ClashOptions& options, ClashManifest& manifest,
+                         const FinishedPieces& done, std::size_t ranks)
     : session_(session),
       options_(options),
       manifest_(manifest),
       files_(manifest.files.size()),
       knows_file_(files_.size()),
-      files_left_(files_.size()) {
+      files_left_(files_.size()),
+      left_(ranks) {
     take_over(done);
-    if (files_left_ == 0) begin_tiles();
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> sizes;
+    for (std::size_t i = 0; i < files_.size(); ++i)
+        if (!knows_file_[i]) sizes.emplace_back(size_of(manifest_.files[i]), i);
+    std::ranges::stable_sort(sizes, std::ranges::greater(), [](const auto& s) { return s.first; });
+    for (const auto& [size, file] : sizes) file_order_.push_back(file);
 }
 
 void Coordinator::take_over(const FinishedPieces& done) {
@@ -40,63 +59,62 @@ void Coordinator::take_over(const FinishedPieces& done) {
     }
 }
 
-bool Coordinator::next(RankTask& task) {
-    if (is_over()) return false;
-    if (!tiles_) {
-        while (next_file_ < files_.size() && knows_file_[next_file_]) ++next_file_;
-        if (next_file_ == files_.size()) return false;
-        task = {};
-        task.kind = RankTask::Kind::File;
-        task.piece = next_file_;
-        task.files = {manifest_.files[next_file_++]};
-        return true;
-    }
-    if (!slices_.empty()) {
-        task = tile_task(slices_.front());
-        slices_.pop_front();
-        return true;
-    }
-    while (next_tile_ < states_.size() && states_[next_tile_].slices != 0) ++next_tile_;
-    if (next_tile_ == states_.size()) return false;
-    task = tile_task(tile_piece(next_tile_++, 0));
+bool Coordinator::next_file(RankOrder& order) {
+    if (next_file_ == file_order_.size()) return false;
+    order = {RankOrder::Kind::File, file_order_[next_file_++], 0, 0, 0};
     return true;
 }
 
-RankTask Coordinator::tile_task(std::uint64_t piece) const {
-    RankTask task;
-    task.kind = RankTask::Kind::Tile;
-    task.piece = piece;
-    task.cell = tiles_->cell(tile_of(piece));
-    std::map<std::uint32_t, std::uint32_t> files;
-    for (const std::uint32_t i : tiles_->boxes(tile_of(piece)))
-        files.try_emplace(manifest_.parts[boxes_[i].part].file, 0);
-    for (auto& [file, place] : files) {
-        place = static_cast<std::uint32_t>(task.files.size());
-        task.files.push_back(manifest_.files[file]);
+bool Coordinator::next(std::size_t rank, RankOrder& order) {
+    if (is_over()) return false;
+    if (!has_tiles_) return next_file(order);
+    if (!slices_.empty()) {
+        order = tile_order(slices_.front());
+        slices_.pop_front();
+        return true;
     }
-    for (const std::uint32_t i : tiles_->boxes(tile_of(piece))) {
-        const ClashPart& part = manifest_.parts[boxes_[i].part];
-        task.parts.push_back({boxes_[i], files.at(part.file), part.id, part.pose});
+    if (!left_[rank].empty()) {
+        order = tile_order(tile_piece(left_[rank].front(), 0));
+        left_[rank].pop_front();
+        return true;
     }
-    return task;
+    // From the other end.
+    Left& most = *std::ranges::max_element(left_, {}, &Left::size);
+    if (most.empty()) return false;
+    order = tile_order(tile_piece(most.back(), 0));
+    most.pop_back();
+    return true;
+}
+
+RankOrder Coordinator::tile_order(std::uint64_t piece) const {
+    const Tile& tile = tiles_[tile_of(piece)];
+    return {RankOrder::Kind::Tile, piece, tile.owner, tile.region, tile.number};
+}
+
+std::size_t Coordinator::ahead() const {
+    if (costs_.empty() || !(seconds_ > 0)) return least_ahead;
+    const double wanted = seconds_ahead * static_cast<double>(costs_.size()) / seconds_;
+    return static_cast<std::size_t>(std::clamp(std::ceil(wanted), static_cast<double>(least_ahead),
+                                               static_cast<double>(most_ahead)));
 }
 
 void Coordinator::accept(RankResult&& result) {
-    if (result.kind == RankResult::Kind::Tile)
-        costs_.push_back({result.piece, tiles_->boxes(tile_of(result.piece)).size(), result.pairs,
-                          result.work, result.seconds});
     switch (result.kind) {
         case RankResult::Kind::File:
             files_[result.piece] = std::move(result.file);
-            if (--files_left_ == 0 && !failure_) begin_tiles();
+            --files_left_;
             break;
         case RankResult::Kind::Tile:
+            costs_.push_back({result.piece, tiles_[tile_of(result.piece)].facts.parts, result.pairs,
+                              result.work, result.seconds});
+            seconds_ += result.seconds;
+            for (ClashPart& part : result.parts) manifest_.parts.push_back(std::move(part));
             add_slice(result.piece, result.slices, std::move(result.records));
             break;
         case RankResult::Kind::Failure:
             // Of several the first, as if all had been done one after the other.
             if (failure_ && failed_piece_ < result.piece) break;
-            failure_ = Failure{result.code, result.message, {}, {}};
+            fail(result.code, result.message);
             failed_piece_ = result.piece;
             break;
         case RankResult::Kind::Ready:
@@ -105,30 +123,49 @@ void Coordinator::accept(RankResult&& result) {
     }
 }
 
-void Coordinator::begin_tiles() {
-    for (const ClashFile& file : files_)
-        if (!file.failure.empty()) session_.note("left out: " + file.failure);
-    boxes_ = clash_boxes(manifest_, files_);
-    // Ranks check those in their tiles; parts without a box are in none.
-    for (const ClashPart& part : manifest_.parts)
-        if (!files_[part.file].box) (void)clash_pose(options_.manifest, part.id, part.pose);
-    tiles_.emplace(boxes_, ClashLimits(manifest_.sets, manifest_.groups.size()));
-    states_.resize(tiles_->size());
-    tiles_left_ = states_.size();
+void Coordinator::fail(int code, const std::string& message) {
+    failure_ = Failure{code, message, {}, {}};
+}
+
+void Coordinator::begin_tiles(const RegionPlan& plan, const std::vector<TileSurvey>& surveys,
+                              std::vector<std::pair<std::uint32_t, std::string>> missing) {
+    missing_ = std::move(missing);
+    std::vector<const std::vector<TileFacts>*> regions(plan.regions.size());
+    for (const TileSurvey& survey : surveys)
+        for (const auto& [region, tiles] : survey.regions) regions[region] = &tiles;
+    for (std::uint32_t r = 0; r < regions.size(); ++r) {
+        const auto owner = static_cast<std::uint32_t>(plan.owner(r, left_.size()));
+        std::uint32_t number = 0;
+        for (const TileFacts& facts : *regions[r])
+            tiles_.push_back({facts, r, number++, owner, 0, 0});
+    }
+    has_tiles_ = true;
+    tiles_left_ = tiles_.size();
+    take_over_tiles();
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        if (tiles_[i].slices == 0) left_[tiles_[i].owner].push_back(i);
+}
+
+void Coordinator::take_over_tiles() {
+    std::vector<bool> is_known(tiles_.size());
     for (auto& [piece, entry] : done_) {
-        if (tile_of(piece) >= states_.size()) continue;
-        TileState& tile = states_[tile_of(piece)];
+        if (tile_of(piece) >= tiles_.size()) continue;
+        Tile& tile = tiles_[tile_of(piece)];
         tile.slices = entry.at("slices").get<std::uint32_t>();
+        is_known[tile_of(piece)] = true;
+        if (entry.contains("parts"))
+            for (const Json& part : entry.at("parts"))
+                manifest_.parts.push_back(part_of_json(part));
         add_slice(piece, tile.slices, std::move(entry.at("found")));
     }
-    for (std::size_t i = 0; i < states_.size(); ++i)
-        for (std::uint32_t s = 0; s < states_[i].slices; ++s)
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+        for (std::uint32_t s = 0; is_known[i] && s < tiles_[i].slices; ++s)
             if (!done_.contains(tile_piece(i, s))) slices_.push_back(tile_piece(i, s));
     done_.clear();
 }
 
 void Coordinator::add_slice(std::uint64_t piece, std::uint32_t slices, Json&& found) {
-    TileState& tile = states_[tile_of(piece)];
+    Tile& tile = tiles_[tile_of(piece)];
     for (Json& record : found)
         (record.contains("error") ? unanswered_ : clashes_).push_back(std::move(record));
     ++tile.done;
@@ -139,20 +176,28 @@ void Coordinator::add_slice(std::uint64_t piece, std::uint32_t slices, Json&& fo
     if (is_finished(tile)) --tiles_left_;
 }
 
+std::uint64_t Coordinator::listed() const {
+    std::uint64_t out = 0;
+    for (const Tile& tile : tiles_) out += tile.facts.parts;
+    return out;
+}
+
 std::string Coordinator::costs_table() const {
-    std::string out = "tile,slice,parts,pairs,work,seconds\n";
+    std::string out = "tile,slice,region,regions,parts,pairs,work,seconds\n";
+    const std::uint32_t regions = tiles_.empty() ? 0 : tiles_.back().region + 1;
     for (const PieceCost& c : costs_)
-        out += fmt::format("{},{},{},{},{},{:.6f}\n", tile_of(c.piece), slice_of(c.piece), c.parts,
-                           c.pairs, c.work, c.seconds);
+        out += fmt::format("{},{},{},{},{},{},{},{:.6f}\n", tile_of(c.piece), slice_of(c.piece),
+                           tiles_[tile_of(c.piece)].region, regions, c.parts, c.pairs, c.work,
+                           c.seconds);
     return out;
 }
 
 std::vector<Json> Coordinator::undone() const {
     std::vector<Json> out;
-    if (!tiles_) {
+    if (!has_tiles_) {
         Json record;
         record["files"] = files_left_;
-        record["parts"] = manifest_.parts.size();
+        record["parts"] = manifest_.size();
         out.push_back(std::move(record));
         return out;
     }
@@ -161,26 +206,32 @@ std::vector<Json> Coordinator::undone() const {
         for (const double v : p) values.push_back(std::isfinite(v) ? Json(v) : Json());
         return values;
     };
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        if (is_finished(states_[i])) continue;
+    for (const Tile& tile : tiles_) {
+        if (is_finished(tile)) continue;
         Json record;
-        record["lo"] = corner(tiles_->cell(i).lo);
-        record["hi"] = corner(tiles_->cell(i).hi);
-        record["parts"] = tiles_->boxes(i).size();
+        record["lo"] = corner(tile.facts.cell.lo);
+        record["hi"] = corner(tile.facts.cell.hi);
+        record["parts"] = tile.facts.parts;
         out.push_back(std::move(record));
     }
     return out;
 }
 
 ClashReport Coordinator::take_report() {
+    std::ranges::sort(manifest_.parts, {}, &ClashPart::id);
+    const auto twice = std::ranges::unique(manifest_.parts, {}, &ClashPart::id);
+    manifest_.parts.erase(twice.begin(), twice.end());
     ClashReport out;
     out.manifest = options_.manifest;
     out.clashes = std::exchange(clashes_, {});
     out.unanswered = std::exchange(unanswered_, {});
     sort_clashes(manifest_, out.clashes);
     sort_clashes(manifest_, out.unanswered);
-    out.missing = missing_files(manifest_, files_);
-    if (tiles_left_ != 0) out.undone = undone();
+    std::ranges::sort(missing_);
+    std::vector<std::vector<std::string>> parts(files_.size());
+    for (const auto& [file, id] : missing_) parts[file].push_back(id);
+    out.missing = missing_files(manifest_.files, files_, std::move(parts));
+    if (!has_tiles_ || tiles_left_ != 0) out.undone = undone();
     return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Coordinator: hands out the work of all ranks, and collects what they find.
+// Coordinator: orders of work for all ranks, and the findings that come back.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "part_messages.h"
 #include "rank_task.h"
 #include "trisect/clash_journal.h"
 #include "trisect/clash_report.h"
-#include "trisect/clash_tiles.h"
 #include "trisect/failure.h"
 #include "trisect/options.h"
 #include "trisect/session.h"
@@ -27,72 +27,93 @@ struct PieceCost {
     double seconds = 0;
 };
 
-/// First the files, whose boxes make those of the parts; then the tiles. A tile is one task, and
-/// the rank that has it says how many slices its pairs are: those after the first are tasks of
-/// their own, for whoever comes next. So no tile is too much for one rank.
+/// First the files, whose boxes make those of the parts; then the tiles, which ranks made of their
+/// regions. A tile is one order, and the rank that does it says how many slices its pairs are:
+/// those after the first are orders of their own, for whichever rank comes next. So no tile is too
+/// much for one rank. A rank does tiles of its own regions, and when it has none left, those of the
+/// rank that has most.
 ///
-/// What is handed out depends on the manifest alone, and where a piece is done does not matter.
-/// Knows nothing of messages.
+/// What the pieces are depends on the manifest alone, and where one is done does not matter. Has
+/// nothing to do with messages, and no parts but those of clashes.
 class Coordinator {
 public:
+    /// \param manifest without parts; gets those of clashes
     /// \param done pieces of earlier runs, which are not done again
-    Coordinator(Session& session, const ClashOptions& options, const ClashManifest& manifest,
-                const FinishedPieces& done);
+    Coordinator(Session& session, const ClashOptions& options, ClashManifest& manifest,
+                const FinishedPieces& done, std::size_t ranks);
 
-    /// False: nothing at present, or nothing any more.
-    [[nodiscard]] bool next(RankTask& task);
+    [[nodiscard]] bool has_all_files() const { return files_left_ == 0; }
+    /// Where a file is missing, its box is none.
+    [[nodiscard]] const std::vector<ClashFile>& files() const { return files_; }
+    /// \param missing parts of files that are left out
+    void begin_tiles(const RegionPlan& plan, const std::vector<TileSurvey>& surveys,
+                     std::vector<std::pair<std::uint32_t, std::string>> missing);
+
+    /// What a rank is to do. False: nothing at present, or nothing any more.
+    [[nodiscard]] bool next(std::size_t rank, RankOrder& order);
     void accept(RankResult&& result);
+    void fail(int code, const std::string& message);
     /// All is done, or something failed that ends the run.
-    [[nodiscard]] bool is_over() const { return failure_ || tiles_left_ == 0; }
+    [[nodiscard]] bool is_over() const { return failure_ || (has_tiles_ && tiles_left_ == 0); }
     [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
+    /// How many orders a rank has at a time: two, but more where they take next to no time.
+    [[nodiscard]] std::size_t ahead() const;
 
     /// Of what was done until now, and what was not; once.
     [[nodiscard]] ClashReport take_report();
-    [[nodiscard]] std::size_t tiles() const { return tiles_ ? tiles_->size() : 0; }
+    [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
     [[nodiscard]] std::size_t tiles_left() const { return tiles_left_; }
-    [[nodiscard]] std::size_t listed() const { return tiles_ ? tiles_->listed() : 0; }
+    /// How often parts are in tiles.
+    [[nodiscard]] std::uint64_t listed() const;
     /// What each slice of this run cost, as CSV.
     [[nodiscard]] std::string costs_table() const;
     [[nodiscard]] const std::vector<PieceCost>& costs() const { return costs_; }
-    /// Where a file is missing, its box is none.
-    [[nodiscard]] const std::vector<ClashFile>& files() const { return files_; }
 
 private:
-    struct TileState {
+    struct Tile {
+        TileFacts facts;
+        std::uint32_t region = 0;
+        std::uint32_t number = 0;  // in the region
+        std::uint32_t owner = 0;
         std::uint32_t slices = 0;  // 0: not known yet
         std::uint32_t done = 0;
     };
+    // Tiles of a rank whose first slice was not ordered.
+    using Left = std::deque<std::uint64_t>;
 
     void take_over(const FinishedPieces& done);
-    void begin_tiles();
+    void take_over_tiles();
     void add_slice(std::uint64_t piece, std::uint32_t slices, Json&& found);
-    [[nodiscard]] RankTask tile_task(std::uint64_t piece) const;
-    [[nodiscard]] bool is_finished(const TileState& tile) const {
+    [[nodiscard]] bool next_file(RankOrder& order);
+    [[nodiscard]] RankOrder tile_order(std::uint64_t piece) const;
+    [[nodiscard]] bool is_finished(const Tile& tile) const {
         return tile.slices != 0 && tile.done == tile.slices;
     }
     [[nodiscard]] std::vector<Json> undone() const;
 
     Session& session_;
     const ClashOptions& options_;
-    const ClashManifest& manifest_;
+    ClashManifest& manifest_;
     std::vector<ClashFile> files_;
     std::vector<bool> knows_file_;
+    std::vector<std::uint64_t> file_order_;  // those that are to be read, the largest first
     std::size_t next_file_ = 0;
     std::size_t files_left_ = 0;
 
-    std::vector<ClashBox> boxes_;
-    std::optional<ClashTiles> tiles_;
-    std::vector<TileState> states_;
+    bool has_tiles_ = false;
+    std::vector<Tile> tiles_;
+    std::vector<Left> left_;            // by rank
     std::deque<std::uint64_t> slices_;  // of tiles whose first is done
-    std::size_t next_tile_ = 0;
-    std::size_t tiles_left_ = 1;  // until they are known
+    std::size_t tiles_left_ = 0;
 
     FinishedPieces done_;
     std::optional<Failure> failure_;
     std::uint64_t failed_piece_ = 0;
     std::vector<PieceCost> costs_;
+    double seconds_ = 0;  // of all tiles
     std::vector<Json> clashes_;
     std::vector<Json> unanswered_;
+    std::vector<std::pair<std::uint32_t, std::string>> missing_;
 };
 
 }  // namespace trisect::app

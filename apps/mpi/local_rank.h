@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LocalRank: a second thread of the coordinating rank.
-// It does tasks as other ranks do.
+// LocalRank: a second thread of a rank, which does its tasks.
+// The first one takes and answers messages meanwhile.
 #pragma once
 
 #include <condition_variable>
@@ -16,7 +16,6 @@
 
 namespace trisect::app {
 
-/// Tasks go in and results come out, as they do with other ranks, but not as messages.
 class LocalRank {
 public:
     explicit LocalRank(std::unique_ptr<RankWorker> worker);

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <trisect/kernel/error.h>
@@ -30,7 +31,12 @@ public:
         put(std::uint64_t{list.size()});
         for (const T& value : list) put(value);
     }
-    [[nodiscard]] std::string take() { return std::move(bytes_); }
+    void put_texts(const std::vector<std::string>& texts) {
+        put(std::uint64_t{texts.size()});
+        for (const std::string& text : texts) put_text(text);
+    }
+    [[nodiscard]] std::size_t size() const { return bytes_.size(); }
+    [[nodiscard]] std::string take() { return std::exchange(bytes_, {}); }
 
 private:
     std::string bytes_;
@@ -52,6 +58,11 @@ public:
     [[nodiscard]] std::vector<T> get_list() {
         std::vector<T> out(get<std::uint64_t>());
         for (T& value : out) value = get<T>();
+        return out;
+    }
+    [[nodiscard]] std::vector<std::string> get_texts() {
+        std::vector<std::string> out(get<std::uint64_t>());
+        for (std::string& text : out) text = get_text();
         return out;
     }
 

@@ -2,7 +2,7 @@
 #include "rank_clash_command.h"
 
 #include "coordinating_rank.h"
-#include "serving_rank.h"
+#include "rank_station.h"
 #include "trisect/clash_command.h"
 #include "trisect/clash_output.h"
 #include "trisect/values.h"

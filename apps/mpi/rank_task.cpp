@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rank_task.h"
 
-#include "message.h"
+#include <array>
 
 namespace trisect::app {
 namespace {
@@ -16,6 +16,26 @@ std::vector<bool> get_groups(MessageReader& in) {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = in.get<bool>();
     return out;
 }
+
+void put_order(MessageWriter& out, const RankOrder& order) {
+    out.put(order.kind);
+    out.put(order.piece);
+    out.put(order.owner);
+    out.put(order.region);
+    out.put(order.tile);
+}
+
+RankOrder get_order(MessageReader& in) {
+    RankOrder out;
+    out.kind = in.get<RankOrder::Kind>();
+    out.piece = in.get<std::uint64_t>();
+    out.owner = in.get<std::uint32_t>();
+    out.region = in.get<std::uint32_t>();
+    out.tile = in.get<std::uint32_t>();
+    return out;
+}
+
+}  // namespace
 
 void put_file(MessageWriter& out, const ClashFile& file) {
     out.put(file.box.has_value());
@@ -34,13 +54,33 @@ ClashFile get_file(MessageReader& in) {
     return out;
 }
 
-}  // namespace
+void put_part(MessageWriter& out, const ClashPart& part) {
+    out.put_text(part.id);
+    out.put_text(part.name == part.id ? std::string_view() : part.name);
+    out.put(part.file);
+    out.put(part.group);
+    out.put(part.pose);
+}
+
+ClashPart get_part(MessageReader& in) {
+    ClashPart out;
+    out.id = in.get_text();
+    out.name = in.get_text();
+    if (out.name.empty()) out.name = out.id;  // no name is empty
+    out.file = in.get<std::uint32_t>();
+    out.group = in.get<std::uint32_t>();
+    out.pose = in.get<std::array<double, 12>>();
+    return out;
+}
 
 std::string bytes_of(const RankStart& start) {
     MessageWriter out;
     out.put_text(start.manifest);
     out.put_text(start.key);
-    out.put(start.groups);
+    out.put(start.is_divided);
+    out.put(start.parts);
+    out.put_texts(start.files);
+    out.put_texts(start.groups);
     out.put(std::uint64_t{start.sets.size()});
     for (const ClashSet& set : start.sets) {
         out.put_text(set.name);
@@ -57,7 +97,10 @@ RankStart rank_start_of(const std::string& bytes) {
     RankStart out;
     out.manifest = in.get_text();
     out.key = in.get_text();
-    out.groups = in.get<std::uint64_t>();
+    out.is_divided = in.get<bool>();
+    out.parts = in.get<std::uint64_t>();
+    out.files = in.get_texts();
+    out.groups = in.get_texts();
     out.sets.resize(in.get<std::uint64_t>());
     for (ClashSet& set : out.sets) {
         set.name = in.get_text();
@@ -69,19 +112,25 @@ RankStart rank_start_of(const std::string& bytes) {
     return out;
 }
 
+std::string bytes_of(const RankOrder& order) {
+    MessageWriter out;
+    put_order(out, order);
+    return out.take();
+}
+
+RankOrder rank_order_of(const std::string& bytes) {
+    MessageReader in(bytes);
+    return get_order(in);
+}
+
 std::string bytes_of(const RankTask& task) {
     MessageWriter out;
-    out.put(task.kind);
-    out.put(task.piece);
-    out.put(std::uint64_t{task.files.size()});
-    for (const std::string& name : task.files) out.put_text(name);
-    out.put(task.cell);
-    out.put(std::uint64_t{task.parts.size()});
-    for (const TilePart& part : task.parts) {
-        out.put(part.box);
-        out.put(part.file);
-        out.put_text(part.id);
-        out.put(part.pose);
+    put_order(out, task.order);
+    out.put(task.tile.cell);
+    out.put(std::uint64_t{task.tile.parts.size()});
+    for (const TilePart& p : task.tile.parts) {
+        out.put(p.box);
+        put_part(out, p.part);
     }
     return out.take();
 }
@@ -89,17 +138,12 @@ std::string bytes_of(const RankTask& task) {
 RankTask rank_task_of(const std::string& bytes) {
     MessageReader in(bytes);
     RankTask out;
-    out.kind = in.get<RankTask::Kind>();
-    out.piece = in.get<std::uint64_t>();
-    out.files.resize(in.get<std::uint64_t>());
-    for (std::string& name : out.files) name = in.get_text();
-    out.cell = in.get<Bounds>();
-    out.parts.resize(in.get<std::uint64_t>());
-    for (TilePart& part : out.parts) {
-        part.box = in.get<ClashBox>();
-        part.file = in.get<std::uint32_t>();
-        part.id = in.get_text();
-        part.pose = in.get<std::array<double, 12>>();
+    out.order = get_order(in);
+    out.tile.cell = in.get<Bounds>();
+    out.tile.parts.resize(in.get<std::uint64_t>());
+    for (TilePart& p : out.tile.parts) {
+        p.box = in.get<ClashBox>();
+        p.part = get_part(in);
     }
     return out;
 }
@@ -113,6 +157,8 @@ std::string bytes_of(const RankResult& result) {
     out.put_text(result.records.empty()
                      ? "[]"
                      : result.records.dump(-1, ' ', false, Json::error_handler_t::replace));
+    out.put(std::uint64_t{result.parts.size()});
+    for (const ClashPart& part : result.parts) put_part(out, part);
     out.put(result.code);
     out.put_text(result.message);
     out.put(result.pairs);
@@ -132,6 +178,8 @@ RankResult rank_result_of(const std::string& bytes) {
     out.file = get_file(in);
     out.slices = in.get<std::uint32_t>();
     out.records = Json::parse(in.get_text());
+    out.parts.resize(in.get<std::uint64_t>());
+    for (ClashPart& part : out.parts) part = get_part(in);
     out.code = in.get<int>();
     out.message = in.get_text();
     out.pairs = in.get<std::uint64_t>();
@@ -140,48 +188,6 @@ RankResult rank_result_of(const std::string& bytes) {
     out.memory = in.get<std::uint64_t>();
     out.reads = in.get<std::uint64_t>();
     out.received = in.get<std::uint64_t>();
-    return out;
-}
-
-std::string bytes_of(const SharedParts& share) {
-    MessageWriter out;
-    out.put(share.number);
-    out.put(share.parts.has_value());
-    if (!share.parts) return out.take();
-    for (const auto* const names : {&share.parts->files, &share.parts->groups}) {
-        out.put(std::uint64_t{names->size()});
-        for (const std::string& name : *names) out.put_text(name);
-    }
-    out.put(std::uint64_t{share.parts->parts.size()});
-    for (const ClashPart& part : share.parts->parts) {
-        out.put_text(part.id);
-        out.put_text(part.name == part.id ? std::string() : part.name);
-        out.put(part.file);
-        out.put(part.group);
-        out.put(part.pose);
-    }
-    return out.take();
-}
-
-SharedParts shared_parts_of(const std::string& bytes) {
-    MessageReader in(bytes);
-    SharedParts out;
-    out.number = in.get<std::uint64_t>();
-    if (!in.get<bool>()) return out;
-    ManifestShare& share = out.parts.emplace();
-    for (auto* const names : {&share.files, &share.groups}) {
-        names->resize(in.get<std::uint64_t>());
-        for (std::string& name : *names) name = in.get_text();
-    }
-    share.parts.resize(in.get<std::uint64_t>());
-    for (ClashPart& part : share.parts) {
-        part.id = in.get_text();
-        part.name = in.get_text();
-        if (part.name.empty()) part.name = part.id;  // no name is empty
-        part.file = in.get<std::uint32_t>();
-        part.group = in.get<std::uint32_t>();
-        part.pose = in.get<std::array<double, 12>>();
-    }
     return out;
 }
 
@@ -206,6 +212,26 @@ ClashFile file_of_json(const Json& json) {
     }
     out.triangles = json.at("triangles").get<std::uint64_t>();
     out.failure = json.value("error", std::string());
+    return out;
+}
+
+Json part_json(const ClashPart& part) {
+    Json out;
+    out["id"] = part.id;
+    out["name"] = part.name;
+    out["file"] = part.file;
+    out["group"] = part.group;
+    out["pose"] = part.pose;
+    return out;
+}
+
+ClashPart part_of_json(const Json& json) {
+    ClashPart out;
+    out.id = json.at("id").get<std::string>();
+    out.name = json.at("name").get<std::string>();
+    out.file = json.at("file").get<std::uint32_t>();
+    out.group = json.at("group").get<std::uint32_t>();
+    out.pose = json.at("pose").get<std::array<double, 12>>();
     return out;
 }
 

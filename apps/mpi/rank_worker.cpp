@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -25,12 +26,6 @@ double processor_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-bool has_corner_in(const Bounds& cell, const Bounds& box) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (box.lo[k] < cell.lo[k] || !(box.lo[k] < cell.hi[k])) return false;
-    return true;
-}
-
 }  // namespace
 
 RankWorker::RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,
@@ -39,17 +34,17 @@ RankWorker::RankWorker(Session& session, const ClashOptions& options, std::uint6
     : session_(session),
       options_(options),
       start_(start),
-      limits_(start_.sets, start_.groups),
+      limits_(start_.sets, start_.groups.size()),
       models_(session, options.operands, most_bytes),
       journal_(journal, start_.key, kept) {}
 
 RankResult RankWorker::done(const RankTask& task) {
     RankResult result;
-    result.piece = task.piece;
+    result.piece = task.order.piece;
     const double begin = processor_seconds();
     const StopScope scope(session_.limits());
     try {
-        if (task.kind == RankTask::Kind::File)
+        if (task.order.kind == RankOrder::Kind::File)
             read_file(task, result);
         else
             answer_slice(task, result);
@@ -72,58 +67,75 @@ RankResult RankWorker::ended() const {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     out.memory = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+    const auto seconds_of = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    out.seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
     return out;
 }
 
 void RankWorker::read_file(const RankTask& task, RankResult& result) {
     result.kind = RankResult::Kind::File;
     try {
-        result.file = models_.get(task.files.front()).file;
+        result.file = models_.get(start_.files.at(task.order.piece)).file;
     } catch (const Error& e) {
         if (!is_left_out(e, options_)) throw;
         result.file.failure = e.what();
     }
-    journal_.add(first_file_piece + task.piece, file_json(result.file));
+    journal_.add(first_file_piece + task.order.piece, file_json(result.file));
 }
 
 void RankWorker::answer_slice(const RankTask& task, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
-    if (tile_ != tile_of(task.piece)) find_candidates(task);
+    const std::uint64_t piece = task.order.piece;
+    if (tile_ != tile_of(piece)) find_candidates(task);
     const std::size_t size = std::max(options_.volumes ? slice_volumes : slice_pairs,
                                       (pairs_.size() + most_slices - 1) / most_slices);
     const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
-    const std::size_t slice = slice_of(task.piece);
-    if (slice == 0) check_poses(task);
-    const std::size_t begin = std::min(slice * size, pairs_.size());
+    const std::size_t begin = std::min(slice_of(piece) * size, pairs_.size());
     const std::size_t n = std::min(size, pairs_.size() - begin);
+    result.records = Json::array();
     std::vector<std::vector<Json>> records(n);
     for_each_in_parallel(n, session_.limits(),
                          [&](std::size_t i) { records[i] = answers(task, pairs_[begin + i]); });
-    result.records = Json::array();
-    for (auto& some : records)
-        for (Json& record : some) result.records.push_back(std::move(record));
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!records[i].empty()) add_parts(task, pairs_[begin + i], result);
+        for (Json& record : records[i]) result.records.push_back(std::move(record));
+    }
     result.slices = static_cast<std::uint32_t>(slices);
     result.pairs = n;
-    journal_.add(task.piece, Json{{"slices", slices}, {"found", result.records}});
+    Json entry{{"slices", slices}, {"found", result.records}};
+    for (const ClashPart& part : result.parts) entry["parts"].push_back(part_json(part));
+    journal_.add(piece, entry);
 }
 
 // By files, so that a model is asked for again while it is here.
 void RankWorker::find_candidates(const RankTask& task) {
+    const std::vector<TilePart>& parts = task.tile.parts;
     std::vector<ClashBox> boxes;
-    boxes.reserve(task.parts.size());
-    for (const TilePart& part : task.parts) boxes.push_back(part.box);
+    boxes.reserve(parts.size());
+    for (const TilePart& part : parts) boxes.push_back(part.box);
     tile_.reset();
     pairs_.clear();
-    add_candidates(limits_, boxes, task.cell, pairs_);
-    const auto file = [&](std::uint32_t part) {
-        return std::ranges::lower_bound(task.parts, part, {},
-                                        [](const TilePart& p) { return p.box.part; })
-            ->file;
+    add_candidates(limits_, boxes, task.tile.cell, pairs_);
+    for (ClashCandidate& pair : pairs_)
+        if (parts[pair.b].part.id < parts[pair.a].part.id) std::swap(pair.a, pair.b);
+    const auto key = [&](const ClashCandidate& c) {
+        const ClashPart& a = parts[c.a].part;
+        const ClashPart& b = parts[c.b].part;
+        return std::tuple(a.file, b.file, std::string_view(a.id), std::string_view(b.id));
     };
-    std::ranges::sort(pairs_, {}, [&](const ClashCandidate& c) {
-        return std::tuple(file(c.a), file(c.b), c.a, c.b);
-    });
-    tile_ = tile_of(task.piece);
+    std::ranges::sort(pairs_, {}, key);
+    tile_ = tile_of(task.order.piece);
+}
+
+void RankWorker::add_parts(const RankTask& task, const ClashCandidate& pair,
+                           RankResult& result) const {
+    for (const std::uint32_t n : {pair.a, pair.b}) {
+        const ClashPart& part = task.tile.parts[n].part;
+        if (std::ranges::find(result.parts, part.id, &ClashPart::id) == result.parts.end())
+            result.parts.push_back(part);
+    }
 }
 
 std::vector<Json> RankWorker::answers(const RankTask& task, const ClashCandidate& pair) {
@@ -135,17 +147,10 @@ std::vector<Json> RankWorker::answers(const RankTask& task, const ClashCandidate
 }
 
 PlacedPart RankWorker::placed(const RankTask& task, std::uint32_t number) {
-    const TilePart& part = *std::ranges::lower_bound(task.parts, number, {},
-                                                     [](const TilePart& p) { return p.box.part; });
-    return {models_.get(task.files[part.file]).model,
-            clash_pose(start_.manifest, part.id, part.pose), part.box.box, part.id, part.box.group};
-}
-
-// Of those whose corner is here: of each part once.
-void RankWorker::check_poses(const RankTask& task) const {
-    for (const TilePart& part : task.parts)
-        if (has_corner_in(task.cell, part.box.box))
-            (void)clash_pose(start_.manifest, part.id, part.pose);
+    const TilePart& from = task.tile.parts[number];
+    return {models_.get(start_.files[from.part.file]).model,
+            clash_pose(start_.manifest, from.part.id, from.part.pose), from.box.box, from.part.id,
+            from.part.group};
 }
 
 }  // namespace trisect::app

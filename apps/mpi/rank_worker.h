@@ -38,9 +38,9 @@ private:
     void read_file(const RankTask& task, RankResult& result);
     void answer_slice(const RankTask& task, RankResult& result);
     void find_candidates(const RankTask& task);
+    void add_parts(const RankTask& task, const ClashCandidate& pair, RankResult& result) const;
     [[nodiscard]] std::vector<Json> answers(const RankTask& task, const ClashCandidate& pair);
     [[nodiscard]] PlacedPart placed(const RankTask& task, std::uint32_t part);
-    void check_poses(const RankTask& task) const;
 
     Session& session_;
     const ClashOptions& options_;

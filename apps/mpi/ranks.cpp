@@ -26,6 +26,10 @@ int Ranks::count() {
 void Ranks::send(int to, Tag tag, std::string bytes) {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
         throw UnsupportedError("a message of more than 2 GiB");
+    if (to == rank()) {
+        own_.push_back({to, tag, std::move(bytes)});
+        return;
+    }
     (void)has_sent_all();
     ++messages_;
     bytes_ += bytes.size();
@@ -36,6 +40,11 @@ void Ranks::send(int to, Tag tag, std::string bytes) {
 }
 
 std::optional<Ranks::Message> Ranks::receive() {
+    if (!own_.empty()) {
+        Message out = std::move(own_.front());
+        own_.pop_front();
+        return out;
+    }
     int is_there = 0;
     MPI_Message handle{};
     MPI_Status status{};
@@ -60,10 +69,19 @@ bool Ranks::has_sent_all() {
     return sent_.empty();
 }
 
+void Ranks::leave() {
+    MPI_Request request = MPI_REQUEST_NULL;
+    Patience patience;
+    for (int is_done = 0; is_done == 0; patience.wait()) {
+        while (receive()) continue;
+        if (request == MPI_REQUEST_NULL && has_sent_all()) MPI_Ibarrier(MPI_COMM_WORLD, &request);
+        if (request != MPI_REQUEST_NULL) MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+    }
+}
+
 void Patience::wait() {
     std::this_thread::sleep_for(std::chrono::microseconds(microseconds_));
-    // Asking is a call of the system or several. Ranks have work ahead of them meanwhile.
-    microseconds_ = std::min(microseconds_ + 10, 2000U);
+    microseconds_ = std::min(microseconds_ + 25, 2000U);
 }
 
 }  // namespace trisect::app

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <list>
 #include <optional>
 #include <string>
@@ -15,12 +16,25 @@ namespace trisect::app {
 /// All calls are of the thread that made MPI ready.
 class Ranks {
 public:
-    enum Tag : int { Start = 1, Task = 2, Result = 3, Manifest = 4 };
+    enum Tag : int {
+        Hashes = 1,  ///< of identities, to compare
+        Summary,     ///< of a manifest
+        Start,
+        Order,
+        Result,
+        Files,
+        Survey,   ///< of parts
+        Regions,  ///< of space
+        Parts,    ///< for the rank that has their region
+        Tiles,    ///< of the regions of a rank
+        Fetch,    ///< an order whose tile is of the rank that is asked
+        Task      ///< the answer
+    };
 
     [[nodiscard]] static int rank();
     [[nodiscard]] static int count();
 
-    /// Returns at once; the bytes are kept until they have arrived.
+    /// Returns at once; the bytes are kept until they have arrived. A rank may send to itself.
     void send(int to, Tag tag, std::string bytes);
     struct Message {
         int from = 0;
@@ -33,6 +47,8 @@ public:
     [[nodiscard]] std::uint64_t messages() const { return messages_; }  ///< sent and received
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     [[nodiscard]] bool has_sent_all();
+    /// Returns when all ranks are here and all messages have arrived; what comes is dropped.
+    void leave();
 
 private:
     struct Sent {
@@ -40,6 +56,7 @@ private:
         MPI_Request request = MPI_REQUEST_NULL;
     };
     std::list<Sent> sent_;
+    std::deque<Message> own_;  // to itself
     std::uint64_t messages_ = 0;
     std::uint64_t bytes_ = 0;
 };
@@ -49,10 +66,12 @@ private:
 class Patience {
 public:
     void wait();
-    void reset() { microseconds_ = 0; }
+    void reset() { microseconds_ = least; }
 
 private:
-    unsigned microseconds_ = 0;
+    // Ranks have work ahead of them meanwhile, and asking takes as long as a pair or two.
+    static constexpr unsigned least = 50;
+    unsigned microseconds_ = least;
 };
 
 }  // namespace trisect::app

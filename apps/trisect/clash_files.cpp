@@ -55,11 +55,17 @@ std::vector<Json> missing_files(const ClashManifest& manifest,
     std::vector<std::vector<std::string>> parts(files.size());
     for (const ClashPart& part : manifest.parts)
         if (!files[part.file].failure.empty()) parts[part.file].push_back(part.id);
+    return missing_files(manifest.files, files, std::move(parts));
+}
+
+std::vector<Json> missing_files(const std::vector<std::string>& names,
+                                const std::vector<ClashFile>& files,
+                                std::vector<std::vector<std::string>> parts) {
     std::vector<Json> out;
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (files[i].failure.empty()) continue;
         Json record;
-        record["file"] = manifest.files[i];
+        record["file"] = names[i];
         record["error"] = files[i].failure;
         record["parts"] = std::move(parts[i]);
         out.push_back(std::move(record));

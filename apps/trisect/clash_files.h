@@ -47,6 +47,11 @@ struct ClashFileModel {
 [[nodiscard]] std::vector<Json> missing_files(const ClashManifest& manifest,
                                               const std::vector<ClashFile>& files);
 
+/// The same, where the parts of each file are known.
+[[nodiscard]] std::vector<Json> missing_files(const std::vector<std::string>& names,
+                                              const std::vector<ClashFile>& files,
+                                              std::vector<std::vector<std::string>> parts);
+
 /// The exact pose of a part. \throw InputError where it is none
 [[nodiscard]] Pose clash_pose(const std::string& manifest, const std::string& part,
                               const std::array<double, 12>& pose);

@@ -24,7 +24,7 @@ std::string line_of(const Json& document) {
 
 Json header_of(const std::string& key) {
     Json out;
-    out["schema"] = "trisect.clash-journal/2";
+    out["schema"] = "trisect.clash-journal/3";
     out["key"] = key;
     return out;
 }

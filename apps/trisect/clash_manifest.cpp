@@ -70,9 +70,18 @@ public:
         return finished();
     }
 
+    ClashManifest head(std::string_view rest, std::vector<std::string> groups) {
+        const Json document = Json::parse(rest);
+        if (!document.at("parts").empty()) fail("two lists of parts");
+        for (const std::string& name : groups) group(name);
+        read_sets(document);
+        if (out_.sets.empty()) add_default_set();
+        return std::move(out_);
+    }
+
 private:
     ClashManifest finished() {
-        out_.key = clash_id({std::string(bytes_.view())});
+        out_.key = long_text_id(bytes_.view());
         if (out_.sets.empty()) add_default_set();
         std::ranges::sort(out_.parts, {}, &ClashPart::id);
         const auto twice = std::ranges::adjacent_find(out_.parts, {}, &ClashPart::id);
@@ -368,6 +377,37 @@ ClashManifest SharedManifest::join(std::vector<std::optional<ManifestShare>> par
     } catch (const Json::exception&) {
     }
     return read_clash_manifest(file_);
+}
+
+std::optional<ClashManifest> SharedManifest::head(std::vector<std::string> files,
+                                                  std::vector<std::string> groups,
+                                                  std::string key) const {
+    if (!place_) return std::nullopt;
+    try {
+        const InputFile text(file_);
+        std::string rest(place_->begin + (text.size() - place_->end), '\0');
+        text.read(0, std::span(rest).first(place_->begin));
+        text.read(place_->end, std::span(rest).subspan(place_->begin));
+        ClashManifest out = ManifestReader(file_).head(rest, std::move(groups));
+        out.files = std::move(files);
+        out.key = std::move(key);
+        return out;
+    } catch (const Error&) {
+    } catch (const Json::exception&) {
+    }
+    return std::nullopt;
+}
+
+std::size_t SharedManifest::blocks() const {
+    return (InputFile(file_).size() + bytes_of_an_id_block - 1) / bytes_of_an_id_block;
+}
+
+std::string SharedManifest::block_id(std::size_t block) const {
+    const InputFile text(file_);
+    const std::uint64_t begin = std::uint64_t{block} * bytes_of_an_id_block;
+    std::string bytes(std::min<std::uint64_t>(bytes_of_an_id_block, text.size() - begin), '\0');
+    text.read(begin, bytes);
+    return clash_id({bytes});
 }
 
 std::uint32_t part_number(const ClashManifest& manifest, const std::string& id) {

@@ -3,6 +3,7 @@
 // ClashManifest: parts under poses, and the pairs of groups to compare.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -47,6 +48,12 @@ struct ClashManifest {
     std::vector<std::string> groups;
     std::vector<ClashSet> sets;
     std::string key;  ///< of all bytes of the file
+    /// Of parts, where this process has only some of them.
+    std::uint64_t all_parts = 0;
+
+    [[nodiscard]] std::uint64_t size() const {
+        return std::max<std::uint64_t>(all_parts, parts.size());
+    }
 };
 
 /// JSON, or CSV where the name ends so. Files of parts are looked for beside the manifest.
@@ -72,6 +79,16 @@ public:
     [[nodiscard]] std::optional<ManifestShare> read(std::size_t share) const;
     /// \param parts all shares. \throw as read_clash_manifest()
     [[nodiscard]] ClashManifest join(std::vector<std::optional<ManifestShare>> parts) const;
+
+    /// All but the parts, of which each process has its own. Nothing where the text is not as it
+    /// should be.
+    /// \param files, groups of all shares, in order and each once
+    /// \param key made of block_id() of all blocks (long_text_id)
+    [[nodiscard]] std::optional<ClashManifest> head(std::vector<std::string> files,
+                                                    std::vector<std::string> groups,
+                                                    std::string key) const;
+    [[nodiscard]] std::size_t blocks() const;
+    [[nodiscard]] std::string block_id(std::size_t block) const;
 
 private:
     std::string file_;

@@ -123,7 +123,7 @@ Json clash_head_json(const ClashManifest& manifest, const ClashReport& report) {
         out["shard"] = report.shard;
         out["run"] = report.run;
     }
-    out["parts"] = manifest.parts.size();
+    out["parts"] = manifest.size();
     if (!report.geometry.is_null()) out["geometry"] = report.geometry;
     std::map<std::string, std::size_t> counts;
     for (const Json& clash : report.clashes) ++counts[text_of(clash, "set")];

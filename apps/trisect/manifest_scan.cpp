@@ -14,13 +14,35 @@ constexpr std::uint64_t block = std::uint64_t{1} << 20;
 constexpr std::uint64_t cut_distance = std::uint64_t{1} << 16;
 constexpr std::string_view wanted_key = "parts";
 
+constexpr std::array<bool, 256> special_characters() {
+    std::array<bool, 256> out{};
+    for (const char c : std::string_view("\":,[]{}")) out[static_cast<unsigned char>(c)] = true;
+    return out;
+}
+
 class Scanner {
 public:
-    void take(char c, std::uint64_t at) {
-        if (in_string_) {
-            take_of_string(c);
-            return;
+    /// Most characters are of numbers and of names, which are passed over.
+    void take(std::string_view bytes, std::uint64_t at) {
+        constexpr std::array<bool, 256> special = special_characters();
+        for (std::size_t i = 0; i < bytes.size();) {
+            if (in_string_) {
+                i = pass_string(bytes, i);
+                continue;
+            }
+            while (i < bytes.size() && !special[static_cast<unsigned char>(bytes[i])]) ++i;
+            if (i == bytes.size()) return;
+            take(bytes[i], at + i);
+            ++i;
         }
+    }
+    [[nodiscard]] std::optional<PartsPlace> found() const {
+        if (lists_ != 1 || in_parts_ || is_odd_) return std::nullopt;
+        return place_;
+    }
+
+private:
+    void take(char c, std::uint64_t at) {
         switch (c) {
             case '"':
                 in_string_ = true;
@@ -45,20 +67,21 @@ public:
                 break;
         }
     }
-    [[nodiscard]] std::optional<PartsPlace> found() const {
-        if (lists_ != 1 || in_parts_ || is_odd_) return std::nullopt;
-        return place_;
-    }
-
-private:
-    void take_of_string(char c) {
-        if (is_escaped_)
+    // To the character after its next end or escape.
+    [[nodiscard]] std::size_t pass_string(std::string_view bytes, std::size_t i) {
+        const std::size_t begin = i;
+        if (is_escaped_) {
             is_escaped_ = false;
-        else if (c == '\\')
-            is_escaped_ = true;
-        else if (c == '"')
-            in_string_ = false;
-        if (in_string_ && depth_ == 1 && word_.size() <= wanted_key.size()) word_ += c;
+            ++i;
+        }
+        while (i < bytes.size() && bytes[i] != '"' && bytes[i] != '\\') ++i;
+        const bool has_more = i < bytes.size();
+        in_string_ = !has_more || bytes[i] != '"';
+        is_escaped_ = has_more && in_string_;
+        const std::size_t end = i + (is_escaped_ ? 1 : 0);
+        if (depth_ == 1 && word_.size() <= wanted_key.size())
+            word_ += bytes.substr(begin, std::min(end - begin, wanted_key.size() + 1));
+        return has_more ? i + 1 : i;
     }
     void begin(char c, std::uint64_t at) {
         is_odd_ |= c != '[';
@@ -109,7 +132,7 @@ std::optional<PartsPlace> find_parts(const InputFile& file) {
     for (std::uint64_t at = 0; at < file.size(); at += block) {
         bytes.resize(std::min(block, file.size() - at));
         file.read(at, std::span(bytes.data(), bytes.size()));
-        for (std::size_t i = 0; i < bytes.size(); ++i) scanner.take(bytes[i], at + i);
+        scanner.take(bytes, at);
     }
     return scanner.found();
 }

@@ -103,6 +103,44 @@ class RankClash(unittest.TestCase):
         self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
 
     @unittest.skipUnless(READY, 'no MPI')
+    def test_parts_are_divided(self):
+        # Several regions, names with what a manifest is cut at, and parts that meet several of them.
+        subprocess.run([sys.executable, MAKE_PLANT, self.folder, '--parts', '7000', '--clashes', '10'], check=True,
+                       stdout=subprocess.DEVNULL)
+        document = json.loads(self.manifest.read_text(encoding='ascii'))
+        names = ['quote "', 'comma ",{[', 'escape \\', 'brackets ]}', 'umlaut \u00e4']
+        for name, part in zip(names, document['parts']):
+            part['id'] = name
+        document['parts'].append({'file': 'block.off', 'id': 'long', 'name': 'beam over all', 'group': 'steel',
+                                  'pose': [1000, 0, 0, 10, 0, 1, 0, 20, 0, 0, 1, 30]})
+        self.manifest.write_text(json.dumps({'sets': document['sets'], 'parts': document['parts']}), encoding='ascii')
+        whole = self.clash([TRISECT], 'whole')
+        for count in (1, 2, 3, 5):
+            self.assert_same(whole, self.clash(ranks(count), f'ranks{count}'))
+        self.clash(ranks(3), 'stopped', '--max-work', '3000', code=5)
+        self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
+
+    @unittest.skipUnless(READY, 'no MPI')
+    def test_what_only_one_rank_reads(self):
+        parts = [{'file': 'block.off', 'name': f'block {i}', 'pose': [i, 0, 0]} for i in range(20)]
+        rows = [f'block.off,block {i},{i} 0 0' for i in range(20)]
+        csv = self.folder / 'manifest.csv'
+        csv.write_text('\n'.join(['file,name,pose', *rows]), encoding='ascii')
+        self.manifest = csv
+        self.assert_same(self.clash([TRISECT], 'whole'), self.clash(ranks(3), 'ranks'))
+        self.manifest = self.folder / 'manifest.json'
+        # Refused with the same words: two of one identity, a pose that is none, no list of parts.
+        bad_pose = {'file': 'block.off', 'name': 'flat', 'pose': [1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0]}
+        for broken in ({'parts': [*parts, parts[3]]}, {'parts': [*parts, bad_pose]}, {'parts': 7}, {}):
+            self.manifest.write_text(json.dumps(broken), encoding='ascii')
+            reasons = []
+            for program in ([TRISECT], ranks(3)):
+                done = call([*program, 'clash', str(self.manifest), '-o', str(self.folder / 'o.json')])
+                self.assertEqual(done.returncode, 3, done.stderr)
+                reasons.append([line for line in done.stderr.splitlines() if 'manifest.json' in line][0])
+            self.assertEqual(reasons[0], reasons[1])
+
+    @unittest.skipUnless(READY, 'no MPI')
     def test_files_that_cannot_be_used(self):
         (self.folder / 'bar.off').unlink()
         block = self.folder / 'block.off'
