@@ -106,8 +106,8 @@ void CoordinatingRank::read_manifest() {
         std::ranges::sort(*names);
         names->erase(std::ranges::unique(*names).begin(), names->end());
     }
-    auto head = SharedManifest(options_.clash.manifest, all_.size())
-                    .head(std::move(all.files), std::move(all.groups), long_text_id(blocks));
+    auto head =
+        station_.manifest().head(std::move(all.files), std::move(all.groups), long_text_id(blocks));
     if (!head) return read_whole_manifest();
     manifest_ = std::move(*head);
     manifest_.all_parts = all.parts;

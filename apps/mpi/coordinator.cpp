@@ -19,6 +19,8 @@ namespace {
 constexpr double seconds_ahead = 0.005;
 constexpr std::size_t least_ahead = 2;
 constexpr std::size_t most_ahead = 16;
+// And are no more than one in so many of what is left to a rank.
+constexpr std::size_t orders_of_which_one_is_ahead = 4;
 
 std::uint64_t size_of(const std::string& file) {
     std::error_code error;
@@ -76,6 +78,7 @@ bool Coordinator::next(std::size_t rank, RankOrder& order) {
     if (!left_[rank].empty()) {
         order = tile_order(tile_piece(left_[rank].front(), 0));
         left_[rank].pop_front();
+        --not_ordered_;
         return true;
     }
     // From the other end.
@@ -83,6 +86,7 @@ bool Coordinator::next(std::size_t rank, RankOrder& order) {
     if (most.empty()) return false;
     order = tile_order(tile_piece(most.back(), 0));
     most.pop_back();
+    --not_ordered_;
     return true;
 }
 
@@ -94,8 +98,12 @@ RankOrder Coordinator::tile_order(std::uint64_t piece) const {
 std::size_t Coordinator::ahead() const {
     if (costs_.empty() || !(seconds_ > 0)) return least_ahead;
     const double wanted = seconds_ahead * static_cast<double>(costs_.size()) / seconds_;
-    return static_cast<std::size_t>(std::clamp(std::ceil(wanted), static_cast<double>(least_ahead),
-                                               static_cast<double>(most_ahead)));
+    // What a rank has, no other one can take.
+    const std::size_t most = std::clamp(
+        not_ordered_ / (orders_of_which_one_is_ahead * left_.size()), least_ahead, most_ahead);
+    return wanted < static_cast<double>(most)
+               ? std::max(least_ahead, static_cast<std::size_t>(std::ceil(wanted)))
+               : most;
 }
 
 void Coordinator::accept(RankResult&& result) {
@@ -143,7 +151,10 @@ void Coordinator::begin_tiles(const RegionPlan& plan, const std::vector<TileSurv
     tiles_left_ = tiles_.size();
     take_over_tiles();
     for (std::size_t i = 0; i < tiles_.size(); ++i)
-        if (tiles_[i].slices == 0) left_[tiles_[i].owner].push_back(i);
+        if (tiles_[i].slices == 0) {
+            left_[tiles_[i].owner].push_back(i);
+            ++not_ordered_;
+        }
 }
 
 void Coordinator::take_over_tiles() {

@@ -56,7 +56,8 @@ public:
     /// All is done, or something failed that ends the run.
     [[nodiscard]] bool is_over() const { return failure_ || (has_tiles_ && tiles_left_ == 0); }
     [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
-    /// How many orders a rank has at a time: two, but more where they take next to no time.
+    /// How many orders a rank has at a time: two, but more where they take next to no time and much
+    /// is left.
     [[nodiscard]] std::size_t ahead() const;
 
     /// Of what was done until now, and what was not; once.
@@ -103,6 +104,7 @@ private:
     bool has_tiles_ = false;
     std::vector<Tile> tiles_;
     std::vector<Left> left_;            // by rank
+    std::size_t not_ordered_ = 0;       // tiles in these lists
     std::deque<std::uint64_t> slices_;  // of tiles whose first is done
     std::size_t tiles_left_ = 0;
 

@@ -23,6 +23,8 @@ public:
     /// Reads the shares of a rank. One that cannot be read is no failure: then the first rank reads
     /// the whole, and says why.
     void read(const std::string& manifest, std::size_t rank, std::size_t ranks);
+    /// Until begin(). \pre read()
+    [[nodiscard]] const SharedManifest& manifest() const { return *manifest_; }
     /// All parts, where the first rank has read the whole.
     void take(std::vector<ClashPart> parts);
 

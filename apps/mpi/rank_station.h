@@ -34,6 +34,8 @@ public:
 
     /// The first step.
     void begin();
+    /// Until the start.
+    [[nodiscard]] const SharedManifest& manifest() const { return source_.manifest(); }
     /// All parts, on the first rank, where they are not divided.
     void take_parts(std::vector<ClashPart> parts) { source_.take(std::move(parts)); }
     /// Pieces of earlier runs, on the first rank, for its journal.

@@ -39,9 +39,14 @@ std::size_t sweep_axis(std::span<const ClashBox> boxes) {
     return best;
 }
 
+// Whether the sum of the first two, rounded upwards, is less: rarely is that near.
+bool is_less(double hi, double within, double lo) {
+    return hi + within < lo && above(hi + within) < lo;
+}
+
 bool meet(const Bounds& a, const Bounds& b, double within) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (above(a.hi[k] + within) < b.lo[k] || above(b.hi[k] + within) < a.lo[k]) return false;
+        if (is_less(a.hi[k], within, b.lo[k]) || is_less(b.hi[k], within, a.lo[k])) return false;
     return true;
 }
 
