@@ -49,4 +49,21 @@ struct CellLeaf {
 [[nodiscard]] std::vector<CellLeaf> cell_tree_leaves(const Solid& solid, const Point3d& lo,
                                                      const Point3d& hi);
 
+/// Positions of splitting planes are multiples of a lattice unit divided by this.
+inline constexpr int cell_position_scale = 192;
+
+/// A splitting plane or a leaf, with its place in the tree.
+struct CellTreeNode {
+    int axis = -1;  ///< that the plane is perpendicular to; -1: a leaf
+    std::int64_t position =
+        0;                     ///< the plane, exactly: position / cell_position_scale lattice units
+    std::size_t above = 0;     ///< the child above; the one below follows its parent
+    std::size_t polygons = 0;  ///< of a leaf; 0: homogeneous
+    bool is_inside = false;    ///< of a homogeneous leaf
+    bool is_arranged = false;  ///< see CellTreeStats::arranged_leaves
+};
+
+/// All of the tree, the root first, a parent before its children, below before above. O(size).
+[[nodiscard]] std::vector<CellTreeNode> cell_tree_nodes(const Solid& solid);
+
 }  // namespace trisect

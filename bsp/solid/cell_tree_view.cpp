@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -171,6 +173,34 @@ std::vector<CellLeaf> cell_tree_leaves(const Solid& solid, const std::array<doub
         if (meets_below(side, splitter)) stack.push_back(child_of(visit, 0));
     }
     return leaves;
+}
+
+std::vector<CellTreeNode> cell_tree_nodes(const Solid& solid) {
+    static_assert(cell_position_scale == detail::splitting_scale);
+    struct Entry {
+        Visit visit;
+        std::optional<std::size_t> parent;  // whose child above it is
+    };
+    std::vector<CellTreeNode> nodes;
+    std::vector<Entry> stack{{root_of(solid), std::nullopt}};
+    while (!stack.empty()) {
+        const Entry entry = std::move(stack.back());
+        stack.pop_back();
+        const Visit& visit = entry.visit;
+        if (entry.parent) nodes[*entry.parent].above = nodes.size();
+        CellTreeNode& node = nodes.emplace_back();
+        if (visit.node->is_leaf()) {
+            node.polygons = visit.node->polygons().size();
+            node.is_inside = node.polygons == 0 && is_inside(visit);
+            node.is_arranged = node.polygons != 0 && visit.node->is_mixed();
+            continue;
+        }
+        node.axis = visit.node->axis();
+        node.position = visit.node->splitter();
+        stack.push_back({child_of(visit, 1), nodes.size() - 1});
+        stack.push_back({child_of(visit, 0), std::nullopt});
+    }
+    return nodes;
 }
 
 }  // namespace trisect

@@ -148,4 +148,46 @@ TEST(CellTreeView, BoxesWithoutOrderAreRefused) {
     EXPECT_THROW((void)cell_tree_leaves(box, {NAN, 0, 0}, {0, 1, 1}), trisect::UsageError);
 }
 
+// Down the nodes to the leaf of a point; positions are whole numbers, so sides are exact.
+std::size_t leaf_of(const std::vector<trisect::CellTreeNode>& nodes, const std::array<double, 3>& p,
+                    int exponent) {
+    std::size_t i = 0;
+    while (nodes[i].axis >= 0) {
+        const double x = p[static_cast<std::size_t>(nodes[i].axis)];
+        const double fine = std::ldexp(x, -exponent) * trisect::cell_position_scale;
+        i = fine < static_cast<double>(nodes[i].position) ? i + 1 : nodes[i].above;
+    }
+    return i;
+}
+
+TEST_F(DifferenceOfBalls, NodesLeadPointsToTheLeavesOfTheList) {
+    const std::vector<trisect::CellTreeNode> nodes = trisect::cell_tree_nodes(solid);
+    ASSERT_EQ(nodes.size(), cell_tree_stats(solid).nodes);
+    std::vector<const trisect::CellTreeNode*> leaves;
+    for (const trisect::CellTreeNode& n : nodes)
+        if (n.axis < 0) leaves.push_back(&n);
+    ASSERT_EQ(leaves.size(), all.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(leaves[i]->polygons, all[i].polygons);
+        EXPECT_EQ(leaves[i]->is_inside, all[i].is_inside);
+        EXPECT_EQ(leaves[i]->is_arranged, all[i].is_arranged);
+    }
+    for (int x = -4; x <= 4; ++x)
+        for (int y = -4; y <= 4; ++y) {
+            const std::array<double, 3> p{x / 3.7, y / 3.7, 0.3};
+            const trisect::CellTreeNode& leaf = nodes[leaf_of(nodes, p, solid.lattice().exponent)];
+            const auto found = cell_tree_leaves(solid, p, p);
+            ASSERT_EQ(found.size(), 1U);
+            EXPECT_EQ(leaf.polygons, found[0].polygons);
+            EXPECT_EQ(leaf.is_inside, found[0].is_inside);
+        }
+}
+
+TEST(CellTreeNodes, OfAnUntouchedMeshAreOneLeaf) {
+    const auto nodes = trisect::cell_tree_nodes(Solid::from_mesh(trisect::make_icosphere(1, 1)));
+    ASSERT_EQ(nodes.size(), 1U);
+    EXPECT_EQ(nodes[0].axis, -1);
+    EXPECT_EQ(nodes[0].polygons, 80U);
+}
+
 }  // namespace
