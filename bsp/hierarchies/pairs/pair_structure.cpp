@@ -72,4 +72,12 @@ void PairStructure::near(double limit, NearVisit visit, CostCounters& counters) 
         for (std::uint32_t j = 0; j < b_.triangle_count(); ++j) (void)visit(i, j);
 }
 
+std::vector<VolumeOutline> PairStructure::outlines_of_a(unsigned levels) {
+    return has_doubles() ? list_outlines(false, levels) : std::vector<VolumeOutline>();
+}
+
+std::vector<VolumeOutline> PairStructure::outlines_of_b(unsigned levels) {
+    return has_doubles() ? list_outlines(true, levels) : std::vector<VolumeOutline>();
+}
+
 }  // namespace trisect::hierarchies

@@ -9,7 +9,9 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include <trisect/bsp/hierarchies/pairs/volume_outline.h>
 #include <trisect/bsp/interference/boxes/approximate_map.h>
 #include <trisect/bsp/interference/boxes/cost.h>
 #include <trisect/bsp/interference/interference.h>
@@ -76,6 +78,12 @@ public:
     /// that distinguish inside from outside may. Costs a little where it cannot.
     [[nodiscard]] std::optional<Relation> early_relation(CostCounters& counters);
 
+    /// Volumes of a tree's first levels, a parent before its children, in the user's units of A:
+    /// around A, or around B as they are at the current pose. None where the structure has no tree
+    /// of volumes, or doubles do not suffice for the pose. \pre place() was called
+    [[nodiscard]] std::vector<VolumeOutline> outlines_of_a(unsigned levels);
+    [[nodiscard]] std::vector<VolumeOutline> outlines_of_b(unsigned levels);
+
     [[nodiscard]] const InterferenceModel& model_a() const { return a_; }
     [[nodiscard]] const InterferenceModel& model_b() const { return b_; }
     [[nodiscard]] const Pose& pose_a() const { return pose_a_; }
@@ -95,6 +103,9 @@ protected:
         return false;
     }
     virtual std::optional<Relation> find_early_relation(CostCounters&) { return std::nullopt; }
+    virtual std::vector<VolumeOutline> list_outlines(bool /*of_b*/, unsigned /*levels*/) {
+        return {};
+    }
 
     [[nodiscard]] const detail::InterferenceModelData& data_a() const {
         return trisect::detail::data_of(a_);

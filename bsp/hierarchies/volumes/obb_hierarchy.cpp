@@ -148,6 +148,14 @@ struct BoxKind {
         return fit_along(detail::principal_frame(moments), corners, error);
     }
     static double size(const Box& b) { return b.half[0] + b.half[1] + b.half[2]; }
+    static VolumeOutline outline(const Box& b) {
+        VolumeOutline out;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double middle = dot(b.axis[i], b.center);
+            out.slabs.push_back({b.axis[i], middle - b.half[i], middle + b.half[i]});
+        }
+        return out;
+    }
 
 protected:
     static Volume fit_to_triangle(std::span<const Vector3> corners, double error) {

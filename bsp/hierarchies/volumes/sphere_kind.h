@@ -9,6 +9,7 @@
 #include <span>
 
 #include <trisect/bsp/hierarchies/pairs/tree_frame.h>
+#include <trisect/bsp/hierarchies/pairs/volume_outline.h>
 #include <trisect/bsp/interference/boxes/obb_fit.h>
 #include <trisect/kernel/number/error_bounds.h>
 
@@ -57,6 +58,12 @@ struct SphereKind {
     static Volume fit_about(const detail::Vector3& center, std::span<const detail::Vector3> corners,
                             double error);
     static float size(const Volume& v) { return v.radius; }
+    static VolumeOutline outline(const Volume& v) {
+        VolumeOutline out;
+        out.center = v.middle();
+        out.radius = v.radius;
+        return out;
+    }
 };
 
 }  // namespace trisect::hierarchies

@@ -54,6 +54,17 @@ struct KDopKind {
         return r;
     }
     static float size(const Volume& v) { return v.size(); }
+    static VolumeOutline outline(const Volume& v) {
+        VolumeOutline out;
+        for (std::size_t i = 0; i < KDop<K>::n; ++i) {
+            Slab slab;
+            for (std::size_t k = 0; k < 3; ++k) slab.direction[k] = KDop<K>::directions[i][k];
+            slab.lower = -v.h[KDop<K>::n + i];
+            slab.upper = v.h[i];
+            out.slabs.push_back(slab);
+        }
+        return out;
+    }
 };
 
 // Slabs that are fitted to the moved triangles of B at every pose, from the leaves up.

@@ -10,6 +10,7 @@
 //   fit(corners, error)    around points that are known within `error`
 //   unite(volumes)         around volumes, where has_unite is true: trees are built from leaves up
 //   size(volume), size(moved)   what is larger is opened first
+//   outline(volume), outline(moved)   for pictures, in the frame; a kind may be without
 #pragma once
 
 #include <algorithm>
@@ -221,6 +222,33 @@ protected:
                 for (std::uint32_t k = 0; k < na.count; ++k) offer(na.first + k, e->b, e->gap);
             }
         }
+    }
+
+    std::vector<VolumeOutline> list_outlines(bool of_b, unsigned levels) override {
+        std::vector<VolumeOutline> out;
+        if constexpr (requires(const Volume& v, const Moved& m) {
+                          Kind::outline(v);
+                          Kind::outline(m);
+                      }) {
+            CostCounters unused;
+            const TreeShape& shape = of_b ? b_.shape : a_.shape;
+            std::vector<std::uint32_t> nodes{0};
+            for (unsigned level = 0; level < levels; ++level) {
+                std::vector<std::uint32_t> children;
+                for (const std::uint32_t i : nodes) {
+                    const TreeNode& node = shape.nodes[i];
+                    out.push_back(of_b ? Kind::outline(moved(i, unused))
+                                       : Kind::outline(a_.volumes[i]));
+                    out.back().level = level;
+                    out.back().is_leaf = node.leaf;
+                    out.back().to_user(a_.frame, this->model_a().lattice());
+                    for (std::uint32_t k = 0; !node.leaf && k < node.count; ++k)
+                        children.push_back(node.first + k);
+                }
+                nodes = std::move(children);
+            }
+        }
+        return out;
     }
 
 private:
