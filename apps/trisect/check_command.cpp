@@ -16,11 +16,15 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "check_page.h"
 #include "commands.h"
 #include "import_notes.h"
 #include "mesh_files.h"
+#include "page_entities.h"
 #include "report_json.h"
 #include "values.h"
 
@@ -48,14 +52,16 @@ std::string answer_text(const ValidationReport& report, std::span<const FileRema
 struct Findings {
     ValidationReport report;
     std::vector<FileRemark> remarks;
+    PageShape shape;  ///< for the page, if there is one
 };
 
-Findings check_mesh(Session& session, const std::string& name, const ValidateOptions& options) {
+Findings check_mesh(Session& session, const std::string& name, const ValidateOptions& options,
+                    bool shown) {
     auto [mesh, remarks] =
         session.stage("read", [&] { return read_input_with_remarks(session, name); });
     ValidationReport report =
         session.stage("check", [&, &shape = mesh] { return validate_input(shape, name, options); });
-    return {std::move(report), std::move(remarks)};
+    return {std::move(report), std::move(remarks), shown ? shape_of(mesh) : PageShape()};
 }
 
 bool winds_once(const Session& session, const Brep& brep) {
@@ -70,7 +76,8 @@ bool winds_once(const Session& session, const Brep& brep) {
     return has_signed_volume(Winding::Positive) && has_signed_volume(Winding::NonZero);
 }
 
-Findings check_exact(Session& session, const std::string& name, const ValidateOptions& options) {
+Findings check_exact(Session& session, const std::string& name, const ValidateOptions& options,
+                     bool shown) {
     const Brep brep =
         session.stage("read", [&] { return read_exact(std::filesystem::path(name)); });
     return session.interruptible_stage("check", [&] {
@@ -86,7 +93,17 @@ Findings check_exact(Session& session, const std::string& name, const ValidateOp
                               "number of times; it begins at " +
                                   place_text(place)};
             });
-        return Findings{std::move(report), {}};
+        return Findings{std::move(report), {}, shown ? shape_of(brep) : PageShape()};
+    });
+}
+
+void write_page(Session& session, const CheckOptions& options, PageShape shape,
+                const ValidationReport& report, std::span<const FileRemark> remarks) {
+    session.stage("page", [&] {
+        std::vector<std::string> sentences;
+        for (const FileRemark& r : remarks) sentences.push_back(r.sentence);
+        session.write_output(options.page, check_page(short_name(options.input), std::move(shape),
+                                                      report, std::move(sentences)));
     });
 }
 
@@ -106,18 +123,22 @@ void add_check_command(CLI::App& app, CheckOptions& options) {
             },
             "defects listed of each kind (default 100)")
         ->type_name("N");
+    add_page_option(*command, options.page);
 }
 
 Outcome run_check(Session& session, const CheckOptions& options) {
-    session.plan(2);
+    const bool shown = !options.page.empty();
+    check_page_name(session, options.page);
+    session.plan(shown ? 3 : 2);
     ValidateOptions validation;
     validation.list_limit = options.places;
     if (session.options().lattice) validation.lattice = Lattice{*session.options().lattice};
-    const auto [report, remarks] = has_exact_boundary(options.input)
-                                       ? check_exact(session, options.input, validation)
-                                       : check_mesh(session, options.input, validation);
+    auto [report, remarks, shape] = has_exact_boundary(options.input)
+                                        ? check_exact(session, options.input, validation, shown)
+                                        : check_mesh(session, options.input, validation, shown);
     const LatticeReport& lattice = report.lattice();
     note_rounding(session, lattice, options.input);
+    if (shown) write_page(session, options, std::move(shape), report, remarks);
     Outcome out;
     out.code = report.empty() && remarks.empty() ? exit_done : exit_findings;
     out.document["schema"] = "trisect.check/1";

@@ -24,11 +24,13 @@
 #include "clash_manifest.h"
 #include "clash_merge.h"
 #include "clash_output.h"
+#include "clash_page.h"
 #include "clash_pairs.h"
 #include "clash_picture.h"
 #include "clash_report.h"
 #include "clash_tiles.h"
 #include "commands.h"
+#include "page_entities.h"
 #include "parallel_each.h"
 
 namespace trisect::app {
@@ -77,6 +79,14 @@ public:
                 return clash_picture(clash, part_of(clash.at("a")), part_of(clash.at("b")));
             });
         });
+        if (!options_.page.empty())
+            session_.stage("page", [&] {
+                session_.write_output(
+                    options_.page, clash_page(manifest_, report_, [&](std::uint32_t i) {
+                        return models_.at(manifest_.parts[i].file).is_empty() ? PlacedPart()
+                                                                              : placed(i);
+                    }));
+            });
         if (journal_) journal_->remove();
     }
     [[nodiscard]] const ClashManifest& manifest() const { return manifest_; }
@@ -191,6 +201,8 @@ Outcome merge_shards(Session& session, const ClashOptions& options) {
     const ClashManifest manifest = read_clash_manifest(options.manifest);
     if (!options.pictures.empty())
         throw UsageError("--pictures: not of reports that are merged, whose parts are not read");
+    if (!options.page.empty())
+        throw UsageError("--page: not of reports that are merged, whose parts are not read");
     const ClashReport report =
         session.stage("merge", [&] { return merged_report(manifest, options.shards); });
     session.stage("write", [&] {
@@ -269,11 +281,14 @@ void add_clash_command(CLI::App& app, ClashOptions& options) {
                      "make one report of those of all shards (JSON) instead, without the parts")
         ->type_name("REPORT")
         ->expected(1, 1'000'000);
+    add_page_option(*command, options.page);
 }
 
 Outcome run_clash(Session& session, const ClashOptions& options) {
     check_clash_outputs(session, options);
+    check_page_name(session, options.page);
     if (options.manifest.ends_with(".gdml")) {
+        if (!options.page.empty()) throw UsageError("--page: not of detector geometries");
 #ifdef TRISECT_WITH_GDML
         return run_gdml_clash(session, options);
 #else
@@ -281,7 +296,7 @@ Outcome run_clash(Session& session, const ClashOptions& options) {
 #endif
     }
     if (!options.shards.empty()) return merge_shards(session, options);
-    session.plan(5);
+    session.plan(options.page.empty() ? 5 : 6);
     ClashRun run(session, options);
     const ClashReport& report = run.find();
     run.write();

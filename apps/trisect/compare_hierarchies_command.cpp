@@ -21,9 +21,11 @@
 #include "../scenes/comparison.h"
 #include "command_with.h"
 #include "commands.h"
+#include "hierarchies_page.h"
 #include "motion_file.h"
 #include "operand.h"
 #include "output_name.h"
+#include "page_entities.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -35,6 +37,7 @@ struct CompareHierarchiesOptions {
     std::int64_t frames = 100;
     std::vector<std::string> structures;  ///< by name; empty: all
     std::string chart;                    ///< empty: none
+    std::string page;                     ///< empty: none
     OperandOptions operands;
 };
 
@@ -98,6 +101,21 @@ std::string answers_text(const scenes::Comparison& comparison) {
                              number_text(comparison.answers.least_distance));
 }
 
+void write_page(Session& session, const CompareHierarchiesOptions& options,
+                const std::array<InterferenceModel, 2>& models, const Motion& motion,
+                const scenes::Comparison& comparison) {
+    std::array<PlacedBody, 2> bodies;
+    for (std::size_t i = 0; i < 2; ++i)
+        bodies.at(i) = {short_name(options.inputs.at(i)), models.at(i), identity_pose};
+    std::vector<PosePlace> places;
+    for (std::int64_t i = 0; i < options.frames; ++i)
+        places.push_back(motion.approximate_pose_at(static_cast<double>(motion.piece_count()) *
+                                                    static_cast<double>(i) /
+                                                    static_cast<double>(options.frames - 1)));
+    session.write_output(options.page, hierarchies_page(bodies, frames_of(motion, options.frames),
+                                                        places, comparison));
+}
+
 void add_command(CLI::App& app, CompareHierarchiesOptions& options) {
     CLI::App* command = app.add_subcommand(
         "compare-hierarchies", "what structures for interference queries cost while a solid moves");
@@ -119,17 +137,19 @@ void add_command(CLI::App& app, CompareHierarchiesOptions& options) {
                      "only this one; may be given several times (all but all-pairs)")
         ->type_name("NAME");
     command->add_option("--svg", options.chart, "chart (SVG)")->type_name("FILE");
+    add_page_option(*command, options.page);
     add_operand_options(*command, options.operands);
 }
 
 Outcome run_command(Session& session, const CompareHierarchiesOptions& options) {
     check_output_name(session, options.chart, ".svg");
-    check_outputs(session, {options.chart}, Answer::Printed);
+    check_page_name(session, options.page);
+    check_outputs(session, {options.chart, options.page}, Answer::Printed);
     if (options.frames < 2 || options.frames > 100000)
         throw UsageError("--frames: from 2 to 100000");
     scenes::ComparisonOptions comparison_options;
     comparison_options.kinds = kinds_of(options.structures);
-    session.plan(3);
+    session.plan(options.page.empty() ? 3 : 4);
     const FileMotion motion = read_motion(options.motion);
     const Motion* rational = std::get_if<Motion>(&motion);
     if (rational == nullptr)
@@ -162,6 +182,8 @@ Outcome run_command(Session& session, const CompareHierarchiesOptions& options) 
         session.write_output(
             options.chart,
             scenes::chart_of(comparison, fmt::format("{} frames of B against A", poses.size())));
+    if (!options.page.empty())
+        session.stage("page", [&] { write_page(session, options, models, *rational, comparison); });
     out.document["seconds"] = session.seconds();
     (options.chart == "-" ? out.remarks : out.answer) =
         answers_text(comparison) + scenes::table_of(comparison);

@@ -13,11 +13,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "commands.h"
+#include "interfere_page.h"
 #include "matrix_file.h"
 #include "mesh_files.h"
 #include "operand.h"
+#include "page_entities.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -100,11 +103,13 @@ std::string distance_text(const BoundaryDistance& distance) {
                        distance.b.index());
 }
 
-/// --distance and --nearer-than.
-void add_distances(Session& session, const InterfereOptions& options, const PosedOperand& a,
-                   const PosedOperand& b, Outcome& out) {
+/// --distance and --nearer-than; the distance, if it was asked for and there is one.
+std::optional<BoundaryDistance> add_distances(Session& session, const InterfereOptions& options,
+                                              const PosedOperand& a, const PosedOperand& b,
+                                              Outcome& out) {
+    std::optional<BoundaryDistance> distance;
     if (options.distance) {
-        const auto distance = session.stage(
+        distance = session.stage(
             "distance", [&] { return boundary_distance(a.model, a.pose, b.model, b.pose); });
         out.document["distance"] = distance ? distance_json(*distance, a, b) : Json();
         if (distance) out.answer += distance_text(*distance);
@@ -120,6 +125,19 @@ void add_distances(Session& session, const InterfereOptions& options, const Pose
         out.answer +=
             fmt::format("{} than {}\n", nearer ? "nearer" : "not nearer", number_text(limit));
     }
+    return distance;
+}
+
+void write_page(Session& session, const InterfereOptions& options,
+                const std::array<PosedOperand, 2>& solids, const InterferenceResult& result,
+                const std::optional<BoundaryDistance>& distance) {
+    session.stage("page", [&] {
+        std::array<PlacedBody, 2> bodies;
+        for (std::size_t i = 0; i < 2; ++i)
+            bodies.at(i) = {short_name(options.inputs.at(i)), solids.at(i).model,
+                            solids.at(i).rows};
+        session.write_output(options.page, interfere_page(bodies, result, distance));
+    });
 }
 
 PosedOperand posed(Operand operand, const std::string& pose_file) {
@@ -159,13 +177,16 @@ void add_interfere_command(CLI::App& app, InterfereOptions& options) {
             },
             "also whether they are nearer than D; then exit code 1 if they are")
         ->type_name("D");
+    add_page_option(*command, options.page);
     add_operand_options(*command, options.operands);
 }
 
 Outcome run_interfere(Session& session, const InterfereOptions& options) {
     check_standard_input(
         std::array{options.inputs[0], options.inputs[1], options.poses[0], options.poses[1]});
-    session.plan(4 + (options.distance ? 1 : 0) + (options.nearer_than ? 1 : 0));
+    check_page_name(session, options.page);
+    session.plan(4 + (options.distance ? 1 : 0) + (options.nearer_than ? 1 : 0) +
+                 (options.page.empty() ? 0 : 1));
     std::array<PosedOperand, 2> solids;
     session.stage("read", [&] {
         std::vector<Operand> read = read_operands(session, options.inputs, options.operands);
@@ -182,7 +203,8 @@ Outcome run_interfere(Session& session, const InterfereOptions& options) {
         for (PosedOperand& s : solids) s.model = InterferenceModel(s.operand.solid);
     });
     InterferenceOptions query;
-    query.contacts = options.contacts || session.options().json;
+    query.regions = !options.page.empty();
+    query.contacts = options.contacts || session.options().json || query.regions;
     const InterferenceResult result = session.stage(
         "interfere", [&] { return interfere(a.model, a.pose, b.model, b.pose, query); });
 
@@ -198,7 +220,8 @@ Outcome run_interfere(Session& session, const InterfereOptions& options) {
     out.answer = std::string(to_string(result.relation)) + "\n";
     if (options.contacts)
         for (const Contact& contact : result.contacts) out.answer += contact_text(contact);
-    add_distances(session, options, a, b, out);
+    const auto distance = add_distances(session, options, a, b, out);
+    if (!options.page.empty()) write_page(session, options, solids, result, distance);
     out.document["seconds"] = session.seconds();
     return out;
 }

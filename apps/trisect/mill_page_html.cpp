@@ -13,19 +13,23 @@ const char* const mill_page_before_facts = R"html(<!DOCTYPE html>
 <meta charset="utf-8">
 <title>Milled stock</title>
 <style>
-html, body { margin: 0; height: 100%; overflow: hidden; background: #eef1f5; color: #1d2733;
+:root { color-scheme: light dark; --back: #eef1f5; --panel: #fff; --ink: #1d2733; --line: #cfd6df; }
+@media (prefers-color-scheme: dark) {
+  :root { --back: #20262e; --panel: #2b333d; --ink: #e8edf3; --line: #46505c; }
+}
+html, body { margin: 0; height: 100%; overflow: hidden; background: var(--back); color: var(--ink);
   font: 14px/1.4 system-ui, sans-serif; }
 #view { position: absolute; inset: 0 0 118px 0; width: 100%; height: calc(100% - 118px);
   display: block; cursor: grab; touch-action: none; }
-#panel { position: absolute; left: 0; right: 0; bottom: 0; height: 118px; background: #fff;
-  border-top: 1px solid #cfd6df; padding: 6px 12px; box-sizing: border-box; }
+#panel { position: absolute; left: 0; right: 0; bottom: 0; height: 118px; background: var(--panel);
+  border-top: 1px solid var(--line); padding: 6px 12px; box-sizing: border-box; }
 #graph { width: 100%; height: 34px; display: block; }
 #slider { width: 100%; margin: 0; }
 #row { display: flex; gap: 14px; align-items: center; white-space: nowrap; }
 #facts { flex: 1; overflow: hidden; text-overflow: ellipsis; font-variant-numeric: tabular-nums; }
 #list { position: absolute; top: 10px; right: 10px; max-width: 46ch; max-height: 60%;
   overflow: auto; }
-#list div { background: #fff; border-left: 4px solid #d22; margin-bottom: 6px; padding: 6px 10px;
+#list div { background: var(--panel); border-left: 4px solid #d22; margin-bottom: 6px; padding: 6px 10px;
   cursor: pointer; box-shadow: 0 1px 3px #0003; white-space: pre-wrap; }
 #list div.none { border-color: #2a2; cursor: default; }
 #busy { position: absolute; top: 40%; width: 100%; text-align: center; }
@@ -33,7 +37,7 @@ button { min-width: 5.5em; }
 </style>
 </head>
 <body>
-<canvas id="view"></canvas>
+<canvas id="view" tabindex="0" role="img" aria-label="the stock; arrow keys turn it"></canvas>
 <div id="list"></div>
 <div id="busy">unpacking</div>
 <div id="panel">
@@ -132,6 +136,7 @@ void main() {
   gl_FragColor = vec4(c * mix(light, 1.0, flat_light), alpha);
 }`;
 
+const dark = window.matchMedia("(prefers-color-scheme: dark)");
 const canvas = by_id("view");
 const gl = canvas.getContext("webgl", { antialias: true, preserveDrawingBuffer: true });
 let program, uniforms = {};
@@ -223,7 +228,8 @@ function redraw() {
   canvas.width = canvas.clientWidth * ratio;
   canvas.height = canvas.clientHeight * ratio;
   gl.viewport(0, 0, canvas.width, canvas.height);
-  gl.clearColor(0.933, 0.945, 0.961, 1);
+  if (dark.matches) gl.clearColor(0.125, 0.149, 0.18, 1);
+  else gl.clearColor(0.933, 0.945, 0.961, 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
   gl.uniformMatrix4fv(uniforms.view, false, view_matrix());
   let frame = 0;
@@ -339,6 +345,29 @@ function listen() {
     }, 33);
   };
   window.onresize = () => { draw_graph(); redraw(); };
+  dark.onchange = window.onresize;
+  listen_to_keys();
+}
+// Space plays, comma and dot are a step, C goes to the next collision; in the picture arrows turn.
+function listen_to_keys() {
+  document.addEventListener("keydown", (e) => {
+    const turn = (by, tilt) => {
+      camera.turn += by;
+      camera.tilt = Math.max(-1.55, Math.min(1.55, camera.tilt + tilt));
+      redraw();
+    };
+    const in_picture = { ArrowLeft: () => turn(0.1, 0), ArrowRight: () => turn(-0.1, 0),
+      ArrowUp: () => turn(0, 0.1), ArrowDown: () => turn(0, -0.1),
+      "+": () => { camera.zoom *= 1.1; redraw(); }, "-": () => { camera.zoom /= 1.1; redraw(); } };
+    const next = facts.collisions.find((c) => c.step > step) || facts.collisions[0];
+    const anywhere = { " ": () => by_id("play").click(), ",": () => set_step(step - 1),
+      ".": () => set_step(step + 1), c: () => { if (next) set_step(next.step); } };
+    const action = anywhere[e.key] || (document.activeElement === canvas && in_picture[e.key]);
+    if (!action || e.ctrlKey || e.metaKey || (e.key === " " && /BUTTON|INPUT/.test(e.target.tagName)))
+      return;
+    e.preventDefault();
+    action();
+  });
 }
 async function start() {
   if (!gl) throw "this page needs WebGL";

@@ -73,6 +73,7 @@ struct InfoOptions {
 struct CheckOptions {
     std::string input;
     std::uint64_t places = 100;  ///< listed defects of each kind
+    std::string page;
 };
 
 struct DiffOptions {
@@ -86,6 +87,7 @@ struct VerifyCommandOptions {
     std::vector<std::string> files;  ///< operands, and last the result
     std::optional<double> within;
     std::uint64_t pieces = 10000;
+    std::string page;
 };
 
 struct CorpusOptions {
@@ -116,6 +118,8 @@ struct SweepOptions {
     /// Of the interval that is printed; 0: 2^-40, or 2^-30 where nothing is exact.
     double width = 0;
     OperandOptions operands;
+    std::string page;
+    std::uint64_t frames = 120;  ///< of the page
 };
 
 struct SectionOptions {
@@ -134,6 +138,7 @@ struct TreeOptions {
     QueryOptions set;
     PlaneRequest plane = PlaneRequest::from_text("z", "--plane");
     std::string output;  ///< empty: none
+    std::string page;
 };
 
 struct RenderOptions {
@@ -153,6 +158,7 @@ struct InterfereOptions {
     bool contacts = false;
     bool distance = false;
     std::optional<double> nearer_than;
+    std::string page;  ///< a file; empty: none. So in other commands
 };
 
 struct ClashOptions {
@@ -162,6 +168,7 @@ struct ClashOptions {
     bool regions = false;
     bool volumes = false;
     std::string pictures;             ///< folder; empty: none
+    std::string page;                 ///< a file; empty: none
     std::string shard;                ///< "2/8"; empty: all
     std::vector<std::string> shards;  ///< reports of shards to make one of
     bool resume = false;

@@ -54,6 +54,19 @@ void PageData::add_doubles(const std::string& name, std::span<const double> valu
     add(name, bytes);
 }
 
+void PageData::add_points(const std::string& name, std::span<const Point3d> points) {
+    std::vector<double> all;
+    all.reserve(3 * points.size());
+    for (const Point3d& p : points) all.insert(all.end(), p.begin(), p.end());
+    add_doubles(name, all);
+}
+
+void PageData::add_integers(const std::string& name, std::span<const std::uint32_t> values) {
+    Differences differences;
+    for (const std::uint32_t n : values) differences.add(n);
+    add(name, differences.bytes());
+}
+
 std::string PageData::in_base64() const {
     uLongf size = compressBound(static_cast<uLong>(bytes_.size()));
     std::string out(size, '\0');

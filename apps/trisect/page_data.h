@@ -4,6 +4,8 @@
 // They lie one after the other, deflated together and written in base64.
 #pragma once
 
+#include <trisect/kernel/point3d.h>
+
 #include <cstdint>
 #include <span>
 #include <string>
@@ -21,6 +23,10 @@ public:
     void add_floats(const std::string& name, const std::vector<float>& values);
     /// The first bytes of all numbers, then the second ones and so on: they are alike.
     void add_doubles(const std::string& name, std::span<const double> values);
+    /// Three doubles a point, all as above.
+    void add_points(const std::string& name, std::span<const Point3d> points);
+    /// As differences, see below.
+    void add_integers(const std::string& name, std::span<const std::uint32_t> values);
     /// By name, the first byte and how many there are.
     [[nodiscard]] const Json& places() const { return places_; }
     /// \throw LimitError when there is no memory

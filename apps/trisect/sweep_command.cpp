@@ -13,12 +13,17 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "choice.h"
 #include "commands.h"
 #include "motion_file.h"
 #include "operand.h"
+#include "page_entities.h"
+#include "sweep_page.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -103,6 +108,60 @@ Json witnesses_json(const std::vector<ContactWitness>& witnesses,
 
 using Models = std::array<InterferenceModel, 2>;
 
+PageMotion page_motion(const SweepOptions& options, const Motion& a, const Motion& b) {
+    PageMotion out;
+    out.end = static_cast<double>(std::max(a.piece_count(), b.piece_count()));
+    out.unit = "parameter";
+    out.frames = options.frames;
+    const std::array both{&a, &b};
+    for (std::size_t i = 0; i < 2; ++i)
+        if (const Motion* m = both.at(i); i == 1 || !m->is_still())
+            out.pose.at(i) = [m](double s) {
+                return m->approximate_pose_at(std::min(s, static_cast<double>(m->piece_count())));
+            };
+    return out;
+}
+
+PageMotion page_motion(const SweepOptions& options, const EnclosedMotion& a,
+                       const EnclosedMotion& b) {
+    PageMotion out;
+    out.end = b.duration();
+    out.unit = "time";
+    out.frames = options.frames;
+    const std::array both{&a, &b};
+    for (std::size_t i = 0; i < 2; ++i)
+        if (const EnclosedMotion* m = both.at(i); i == 1 || !m->is_still())
+            out.pose.at(i) = [m](double t) {
+                const double at = std::min(t, m->duration());
+                return m->enclose(at, at).motion.approximate_pose_at(0);
+            };
+    return out;
+}
+
+/// The answer, line by line, without the witnesses, which are findings.
+std::vector<std::string> summary_of(const std::string& answer) {
+    std::vector<std::string> out;
+    for (std::size_t at = 0; at < answer.size();) {
+        const std::size_t end = answer.find('\n', at);
+        std::string line = answer.substr(at, end - at);
+        if (!line.starts_with("A ")) out.push_back(std::move(line));
+        at = end + 1;
+    }
+    return out;
+}
+
+void write_page(Session& session, const SweepOptions& options, const Models& models,
+                const PageMotion& motion, ShownContact contact, const Outcome& out) {
+    if (options.page.empty()) return;
+    session.stage("page", [&] {
+        contact.summary = summary_of(out.answer);
+        std::array<PlacedBody, 2> bodies;
+        for (std::size_t i = 0; i < 2; ++i)
+            bodies.at(i) = {short_name(options.inputs.at(i)), models.at(i), identity_pose};
+        session.write_output(options.page, sweep_page(bodies, motion, contact));
+    });
+}
+
 // Both are rational: exact.
 void sweep(Session& session, const SweepOptions& options, const Models& models,
            const Motion& motion_a, const Motion& motion_b, Outcome& out) {
@@ -123,6 +182,11 @@ void sweep(Session& session, const SweepOptions& options, const Models& models,
         out.answer = answer_text(contact);
     }
     out.document["statistics"] = statistics_json(diagnostics.counters());
+    ShownContact shown;
+    if (contact.exists()) shown.time = contact.time->to_double();
+    shown.witnesses = contact.witnesses;
+    write_page(session, options, models, page_motion(options, motion_a, motion_b), std::move(shown),
+               out);
 }
 
 void sweep(Session& session, const SweepOptions& options, const Models& models,
@@ -151,6 +215,8 @@ void sweep(Session& session, const SweepOptions& options, const Models& models,
     out.document["witnesses"] = witnesses_json(contact.witnesses, models);
     out.document["statistics"] = statistics_json(diagnostics.counters());
     out.answer = answer_text(contact);
+    write_page(session, options, models, page_motion(options, motion_a, motion_b),
+               {contact.contact_by, contact.witnesses, {}}, out);
 }
 
 EnclosedMotion enclosed(const FileMotion& motion) {
@@ -186,12 +252,24 @@ void add_sweep_command(CLI::App& app, SweepOptions& options) {
             },
             "of the interval around the time of contact")
         ->type_name("W");
+    add_page_option(*command, options.page);
+    command
+        ->add_option_function<std::string>(
+            "--frames",
+            [&options](const std::string& s) {
+                const std::int64_t n = parse_integer(s, "--frames");
+                if (n < 1 || n > 10000) throw UsageError("--frames: from 1 to 10000");
+                options.frames = static_cast<std::uint64_t>(n);
+            },
+            "of the page, at equal steps (120)")
+        ->type_name("N");
     add_operand_options(*command, options.operands);
 }
 
 Outcome run_sweep(Session& session, const SweepOptions& options) {
     (void)width_of(options, 1);
-    session.plan(3);
+    check_page_name(session, options.page);
+    session.plan(options.page.empty() ? 3 : 4);
     const FileMotion motion_a =
         options.motion_of_a.empty() ? Motion() : read_motion(options.motion_of_a);
     const FileMotion motion_b = read_motion(options.motion);

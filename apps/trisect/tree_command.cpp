@@ -14,8 +14,10 @@
 
 #include "commands.h"
 #include "output_name.h"
+#include "page_entities.h"
 #include "queried_set.h"
 #include "tree_drawing.h"
+#include "tree_page.h"
 #include "values.h"
 
 namespace trisect::app {
@@ -168,12 +170,14 @@ void add_tree_command(CLI::App& app, TreeOptions& options) {
         ->type_name("z=NUMBER|z");
     command->add_option("-o,--output", options.output, "drawing (SVG); '-' is the standard output")
         ->type_name("FILE");
+    add_page_option(*command, options.page);
 }
 
 Outcome run_tree(Session& session, const TreeOptions& options) {
     check_output_name(session, options.output, ".svg");
-    check_outputs(session, {options.output}, Answer::Printed);
-    session.plan(5);
+    check_page_name(session, options.page);
+    check_outputs(session, {options.output, options.page}, Answer::Printed);
+    session.plan(options.page.empty() ? 5 : 6);
     const QueriedSet set = read_set(session, options.set);
     const BrepIndex index = session.stage("index", [&] { return BrepIndex(set.solid); });
     index.refine();  // so that its figures are those of all of it
@@ -195,6 +199,14 @@ Outcome run_tree(Session& session, const TreeOptions& options) {
         });
         session.stage("write", [&] { session.write_output(options.output, drawing); });
     }
+    if (!options.page.empty())
+        session.stage("page", [&] {
+            const std::string title =
+                set.operands.size() == 1
+                    ? short_name(options.set.inputs[0])
+                    : fmt::format("{} of {} solids", options.set.operation, set.operands.size());
+            session.write_output(options.page, tree_page(title, set.solid, set.solid.to_brep()));
+        });
     out.document["seconds"] = session.seconds();
     (options.output == "-" ? out.remarks : out.answer) = answer_text(cells, index.stats());
     return out;

@@ -19,11 +19,13 @@
 #include <span>
 #include <utility>
 
+#include "check_page.h"
 #include "choice.h"
 #include "commands.h"
 #include "mesh_files.h"
 #include "operand.h"
 #include "operation_name.h"
+#include "page_entities.h"
 #include "report_json.h"
 #include "values.h"
 
@@ -140,40 +142,65 @@ bool are_equal(Session& session, BooleanOperation operation,
     });
 }
 
-VerifyReport verify_meshes(Session& session, BooleanOperation operation,
-                           const VerifyCommandOptions& options) {
-    std::vector<PolygonMesh> meshes = session.stage("read", [&] {
+std::vector<PolygonMesh> read_meshes(Session& session, const std::vector<std::string>& files) {
+    return session.stage("read", [&] {
         std::vector<PolygonMesh> out;
-        for (const std::string& name : options.files)
+        for (const std::string& name : files)
             out.push_back(has_exact_boundary(name)
                               ? to_polygon_mesh(read_exact(std::filesystem::path(name)))
                               : read_input(session, name));
         return out;
     });
-    const PolygonMesh result = std::move(meshes.back());
-    meshes.pop_back();
+}
+
+struct Verified {
+    VerifyReport report;
+    std::vector<PolygonMesh> meshes;  ///< the result last; none where they were not read
+};
+
+Verified verify_meshes(Session& session, BooleanOperation operation,
+                       const VerifyCommandOptions& options) {
+    std::vector<PolygonMesh> meshes = read_meshes(session, options.files);
+    const std::span<const PolygonMesh> operands = std::span(meshes).first(meshes.size() - 1);
     VerifyOptions verification;
     verification.within = options.within;
     verification.piece_limit = options.pieces;
     verification.evaluate = session.evaluation_options({});
     if (session.options().lattice) verification.lattice = Lattice{*session.options().lattice};
     VerifyReport report = session.interruptible_stage(
-        "verify", [&] { return verify(operation, meshes, result, verification); });
+        "verify", [&] { return verify(operation, operands, meshes.back(), verification); });
     note_moves(session, report, options.files);
-    return report;
+    return {std::move(report), std::move(meshes)};
 }
 
-VerifyReport verify_exactly(Session& session, BooleanOperation operation,
-                            const VerifyCommandOptions& options) {
+Verified verify_exactly(Session& session, BooleanOperation operation,
+                        const VerifyCommandOptions& options) {
     if (options.within)
         throw UsageError("--within: distances from exact boundaries (.exact) are not certified");
-    if (are_equal(session, operation, options.files)) return VerifyReport();
-    VerifyReport report = verify_meshes(session, operation, options);
+    if (are_equal(session, operation, options.files)) return {VerifyReport(), {}};
+    Verified out = verify_meshes(session, operation, options);
+    VerifyReport& report = out.report;
     session.note("exact boundaries were rounded to doubles for the radius and the witness");
     if (report.verdict == Verdict::Equal)
         report.lower = report.upper = std::numeric_limits<double>::quiet_NaN();
     if (report.verdict != Verdict::NotClosed) report.verdict = Verdict::Different;
-    return report;
+    return out;
+}
+
+void write_page(Session& session, const VerifyCommandOptions& options,
+                const std::vector<PolygonMesh>& meshes, const VerifyReport& report) {
+    session.stage("page", [&] {
+        std::vector<std::string> names;
+        for (const std::string& file : options.files) names.push_back(short_name(file));
+        std::vector<std::string> summary{to_string(report.verdict)};
+        if (report.verdict != Verdict::Equal && !std::isnan(report.lower)) {
+            const std::string radius = radius_text(report);
+            summary.push_back(radius.substr(2, radius.size() - 3));
+        }
+        session.write_output(options.page, verify_page(fmt::format("{}: is it the {}?",
+                                                                   names.back(), options.operation),
+                                                       names, meshes, report, std::move(summary)));
+    });
 }
 
 }  // namespace
@@ -209,20 +236,27 @@ void add_verify_command(CLI::App& app, VerifyCommandOptions& options) {
             },
             "most pieces that the difference is cut into (default 10000)")
         ->type_name("N");
+    add_page_option(*command, options.page);
 }
 
 Outcome run_verify(Session& session, const VerifyCommandOptions& options) {
     check_standard_input(options.files);
     const BooleanOperation operation = operation_named(options.operation);
     const bool exact = std::ranges::any_of(options.files, has_exact_boundary);
-    session.plan(exact ? 4 : 2);
-    const VerifyReport report = exact ? verify_exactly(session, operation, options)
-                                      : verify_meshes(session, operation, options);
+    check_page_name(session, options.page);
+    session.plan((exact ? 4 : 2) + (options.page.empty() ? 0 : 1));
+    Verified verified = exact ? verify_exactly(session, operation, options)
+                              : verify_meshes(session, operation, options);
+    const VerifyReport& report = verified.report;
     Outcome out;
     out.code = code_of(report.verdict);
     out.document = document_of(report, options);
     out.document["seconds"] = session.seconds();
     out.answer = answer_of(report, options);
+    if (!options.page.empty()) {
+        if (verified.meshes.empty()) verified.meshes = read_meshes(session, options.files);
+        write_page(session, options, verified.meshes, report);
+    }
     return out;
 }
 

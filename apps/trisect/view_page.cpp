@@ -10,43 +10,14 @@
 #include <cstdint>
 
 #include "page_data.h"
+#include "page_plane.h"
+#include "page_style.h"
 #include "values.h"
 
 namespace trisect::app {
 namespace {
 
-constexpr const char* head = R"html(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>Solid</title>
-<style>
-:root { color-scheme: light dark; --back: #eef1f5; --panel: #fffffff0; --ink: #1d2733; --line: #cfd6df; }
-@media (prefers-color-scheme: dark) {
-  :root { --back: #20262e; --panel: #2b333df0; --ink: #e8edf3; --line: #46505c; }
-}
-html, body { margin: 0; height: 100%; overflow: hidden; background: var(--back); color: var(--ink);
-  font: 14px/1.45 system-ui, sans-serif; }
-#view { position: absolute; inset: 0; width: 100%; height: 100%; display: block; cursor: grab;
-  touch-action: none; }
-#panel { position: absolute; top: 10px; left: 10px; width: min(320px, 80vw); max-height: 94%;
-  overflow: auto; background: var(--panel); border: 1px solid var(--line); border-radius: 6px;
-  padding: 10px 14px; box-sizing: border-box; }
-#panel h1 { font-size: 16px; margin: 0 0 2px; overflow-wrap: anywhere; }
-#panel ul { list-style: none; padding: 0; margin: 8px 0; }
-#panel li { overflow-wrap: anywhere; }
-#panel li i { display: inline-block; width: 12px; height: 12px; margin-right: 7px;
-  border-radius: 3px; border: 1px solid #0005; vertical-align: -1px; }
-#panel label { display: flex; gap: 8px; align-items: center; margin: 3px 0; }
-#panel input[type=range] { flex: 1; min-width: 0; }
-pre { white-space: pre-wrap; overflow-wrap: anywhere; margin: 8px 0 0; font: 12px/1.4 ui-monospace,
-  monospace; }
-#item { position: absolute; bottom: 10px; left: 10px; background: var(--panel); padding: 2px 8px;
-  border-radius: 4px; }
-#item:empty, pre:empty { display: none; }
-details { margin-top: 8px; }
-</style>
+constexpr const char* view_body = R"html(</style>
 </head>
 <body>
 <canvas id="view" tabindex="0" aria-label="the solid"></canvas>
@@ -94,30 +65,14 @@ bool has_exact_corners(const Brep& brep, FaceId f) {
     return false;
 }
 
-std::string hexadecimal(const Plane::Coefficient& value) {
-    const Plane::Coefficient size = value.abs();
-    std::string digits;
-    for (int i = 5; i >= 0; --i) digits += fmt::format("{:016x}", size.limb(i));
-    return (value.is_negative() ? "-" : "") + digits;
-}
-
 /// Normal and offset of n·x + d = 0 in lattice units, for faces that have no exact corners.
 Json planes_of(const Brep& brep) {
     Json out = Json::object();
     for (const FaceId f : brep.faces()) {
         if (has_exact_corners(brep, f)) continue;
-        const Plane& p = brep.plane(f);
-        out[std::to_string(f.index)] = {hexadecimal(p.normal(0)), hexadecimal(p.normal(1)),
-                                        hexadecimal(p.normal(2)), hexadecimal(p.offset())};
+        out[std::to_string(f.index)] = plane_json(brep.plane(f));
     }
     return out;
-}
-
-void add_points(PageData& data, const std::string& name, const std::vector<Point3d>& points) {
-    std::vector<double> all;
-    all.reserve(3 * points.size());
-    for (const Point3d& p : points) all.insert(all.end(), p.begin(), p.end());
-    data.add_doubles(name, all);
 }
 
 /// The triangles of each face, and where those of the next one begin.
@@ -161,7 +116,7 @@ void add_sources(PageData& data, const ViewedSolid& solid) {
 void add_inputs(PageData& data, const std::vector<PolygonMesh>& inputs) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const PolygonMesh& mesh = inputs[i];
-        add_points(data, fmt::format("points{}", i), mesh.points);
+        data.add_points(fmt::format("points{}", i), mesh.points);
         Differences corners;
         for (std::size_t f = 0; f < mesh.face_count(); ++f) {
             const auto c = mesh.face(f);
@@ -179,7 +134,7 @@ std::string page_text(const ViewedSolid& solid) {
     MeshMap map;
     const PolygonMesh mesh = to_polygon_mesh(brep, {}, &map);
     PageData data;
-    add_points(data, "points", mesh.points);
+    data.add_points("points", mesh.points);
     std::string exact;
     for (const VertexId v : brep.vertices()) exact += brep.point(v).is_lattice() ? '\1' : '\0';
     data.add("exact", exact);
@@ -195,8 +150,8 @@ std::string page_text(const ViewedSolid& solid) {
     facts["planes"] = planes_of(brep);
     facts["inputs"] = solid.inputs.size();
     facts["places"] = data.places();
-    return head + script_text(facts) + before_data + data.in_base64() + before_program +
-           viewer_program() + end;
+    return page_start + std::string(page_style) + view_body + script_text(facts) + before_data +
+           data.in_base64() + before_program + viewer_program() + end;
 }
 
 }  // namespace trisect::app

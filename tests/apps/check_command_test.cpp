@@ -144,4 +144,17 @@ TEST_F(CheckCommand, TextNamesTheDefects) {
     EXPECT_NE(result.out.find("not a solid"), std::string::npos) << result.out;
 }
 
+TEST_F(CheckCommand, PageHasDefectsAtTheirPlaces) {
+    const std::string open = write("open.off",
+                                   "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                   "3 0 2 1\n3 0 1 3\n3 0 3 2\n");
+    const std::string page = path("page.html");
+    const Finished result = trisect({"check", open, "--page", page});
+    EXPECT_EQ(result.code, 1) << result.err;
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("title":"open edge")"), std::string::npos) << text.substr(0, 6000);
+    EXPECT_NE(text.find(R"("segments":[[)"), std::string::npos);
+    EXPECT_NE(text.find("not a solid; 3 errors"), std::string::npos);
+}
+
 }  // namespace

@@ -168,4 +168,17 @@ TEST_F(ClashCommand, MistakesInManifests) {
     EXPECT_EQ(trisect({"clash", write("m.json", plant().dump()), "-o", path("r.txt")}).code, 2);
 }
 
+TEST_F(ClashCommand, PageHasClashesAndTheOtherParts) {
+    json manifest = plant();
+    manifest["sets"] = json::array({set_of("intersection")});
+    const std::string page = path("page.html");
+    EXPECT_EQ(run(manifest, {"--page", page, "--regions"}).code, 1);
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("shapes":2)"), std::string::npos) << text.substr(0, 6000);
+    EXPECT_NE(text.find("1 clashes of 6 parts"), std::string::npos);
+    for (const char* name : {"base", "deep", "flush", "near", "far", "bar"})
+        EXPECT_NE(text.find(std::string(R"({"name":")") + name + '"'), std::string::npos) << name;
+    EXPECT_EQ(run(manifest, {"--page", "-"}).code, 2);
+}
+
 }  // namespace

@@ -65,4 +65,13 @@ TEST_F(CompareHierarchiesCommand, UnknownStructuresAndBadNumbersAreUsageErrors) 
     EXPECT_EQ(compare({"--svg", "chart.png"}).code, 2);
 }
 
+TEST_F(CompareHierarchiesCommand, PageHasVolumesAndCountsOfEachFrame) {
+    const std::string page = path("page.html");
+    EXPECT_EQ(compare({"--page", page}).code, 0);
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("page":"hierarchies")"), std::string::npos);
+    EXPECT_NE(text.find(R"("volumes":"boxes")"), std::string::npos);
+    EXPECT_EQ(compare({"--page", path("page.svg")}).code, 2);
+}
+
 }  // namespace

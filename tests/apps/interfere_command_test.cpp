@@ -177,4 +177,23 @@ TEST_F(InterfereCommand, MistakesOfTheCommandLine) {
     EXPECT_EQ(trisect({"interfere", cube_, open_box("open.obj")}).code, 4);
 }
 
+TEST_F(InterfereCommand, PageHasBothSolidsAndWhatTheyShare) {
+    const std::string page = path("page.html");
+    const Finished result =
+        trisect({"interfere", cube_, cube_, "--pose-b", shifted("p", "2"), "--page", page});
+    EXPECT_EQ(result.code, 1) << result.err;
+    EXPECT_EQ(result.out, "touching\n");
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("summary":["touching","9 contacts; 1 areas, 0 segments, 0 points"])"),
+              std::string::npos)
+        << text.substr(0, 6000);
+    EXPECT_NE(text.find("area, face to face"), std::string::npos);
+    EXPECT_EQ(text.substr(text.size() - 8), "</html>\n");
+}
+
+TEST_F(InterfereCommand, PageIsAFileOfItsOwn) {
+    EXPECT_EQ(trisect({"interfere", cube_, cube_, "--page", "-"}).code, 2);
+    EXPECT_EQ(trisect({"interfere", cube_, cube_, "--page", path("page.png")}).code, 2);
+}
+
 }  // namespace

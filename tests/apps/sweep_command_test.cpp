@@ -171,4 +171,17 @@ TEST_F(SweepCommand, MotionDocumentsWithMistakesAreRefused) {
     expect_refused(R"({"turn": {"axis": [0, 0, 0]}})", "axis");
 }
 
+TEST_F(SweepCommand, PageStopsAtTheContact) {
+    const std::string page = path("page.html");
+    const Finished result = sweep(down_, {"--page", page, "--frames", "3"});
+    EXPECT_EQ(result.code, 1) << result.err;
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("times":[0.0,0.3333333333333333,0.5,0.6666666666666666,1.0])"),
+              std::string::npos)
+        << text.substr(0, 6000);
+    EXPECT_NE(text.find(R"("contact":2)"), std::string::npos);
+    EXPECT_NE(text.find("face meets vertex"), std::string::npos);
+    EXPECT_EQ(sweep(down_, {"--page", page, "--frames", "0"}).code, 2);
+}
+
 }  // namespace

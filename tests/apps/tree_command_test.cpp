@@ -72,4 +72,15 @@ TEST_F(TreeCommand, SlantedSlicesAndOtherFormatsAreRefused) {
     EXPECT_EQ(trisect({"tree", cube_, "-o", "-", "--json"}).code, 2);
 }
 
+TEST_F(TreeCommand, PageHasBothTrees) {
+    const std::string page = path("page.html");
+    const json document =
+        trisect({"tree", cube_, tool_, "--op", "difference", "--page", page, "--json"}).json();
+    EXPECT_EQ(document["op"], "difference");
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("page":"tree")"), std::string::npos);
+    EXPECT_NE(text.find(R"("planes":[)"), std::string::npos);  // where the data are
+    EXPECT_EQ(trisect({"tree", cube_, "-o", page, "--page", page}).code, 2);
+}
+
 }  // namespace

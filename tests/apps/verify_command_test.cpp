@@ -111,4 +111,17 @@ TEST_F(VerifyCommand, OpenOperandsAreNoSolids) {
     EXPECT_EQ(trisect({"verify", "union", a_, b_}).code, 2);
 }
 
+TEST_F(VerifyCommand, PageHasTheWitness) {
+    const std::string wrong = box("i.obj", {2, 2, 2}, {4, 4, 5});
+    const std::string page = path("page.html");
+    const Finished result = trisect({"verify", "intersection", a_, b_, wrong, "--page", page});
+    EXPECT_EQ(result.code, 1) << result.err;
+    const std::string text = read(page);
+    EXPECT_NE(text.find(R"("title":"witness")"), std::string::npos) << text.substr(0, 6000);
+    EXPECT_NE(text.find("winding number 0 of a.obj"), std::string::npos);
+    const std::string right = box("j.obj", {2, 2, 2}, {4, 4, 4});
+    EXPECT_EQ(trisect({"verify", "intersection", a_, b_, right, "--page", page}).code, 0);
+    EXPECT_NE(read(page).find(R"("findings":[])"), std::string::npos);
+}
+
 }  // namespace

@@ -11,49 +11,17 @@ with 77 where there is no Chromium. Needs the Python package.
 
 import argparse
 import fractions
-import html
 import json
 import pathlib
-import re
-import shutil
 import subprocess
 import sys
 import tempfile
-import urllib.parse
 
 import numpy as np
 
 import trisect
-
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-OPTIONS = (
-    "--headless",
-    "--no-sandbox",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--window-size=1000,750",
-    "--hide-scrollbars",
-    "--virtual-time-budget=20000",
-)
-
-
-def browse(browser, page, *more, call=""):
-    address = page.resolve().as_uri() + call
-    done = subprocess.run(
-        [browser, *OPTIONS, *more, address], capture_output=True, text=True, timeout=240, check=True
-    )
-    return done.stdout
-
-
-def ask(browser, page, question):
-    words = urllib.parse.urlencode({"call": "report", "with": json.dumps([question])})
-    document = browse(browser, page, "--dump-dom", call="#" + words)
-    title = re.search(r"<title>(.*?)</title>", document, re.DOTALL).group(1)
-    if not title.endswith(": ready"):
-        raise SystemExit(f"{page.name}: {html.unescape(title)}")
-    answer = re.search(r'<pre id="answer"[^>]*>(.*?)</pre>', document, re.DOTALL).group(1)
-    return json.loads(html.unescape(answer))
-
+from browser import ask, find_browser, picture
+from picks import check_pick
 
 def check_picks(solid, picks):
     for pick in picks:
@@ -62,8 +30,7 @@ def check_picks(solid, picks):
         plane = [float(fractions.Fraction(c)) for c in pick["plane"]]
         t_plane = (plane[3] - np.dot(plane[:3], eye)) / np.dot(plane[:3], way)
         hit = solid.first_hit(eye, way)
-        if hit is None or abs(hit.t - t_plane) > 1e-6 * abs(t_plane):
-            raise SystemExit(f"face {pick['face']} at {t_plane}, the engine's first hit at {hit and hit.t}")
+        check_pick(pick, hit and hit.t, t_plane)
 
 
 def check_sections(command, files, operation, sections, found):
@@ -137,7 +104,7 @@ def main():
     parser.add_argument("--picks", type=int, default=200)
     parser.add_argument("--screenshots", type=pathlib.Path)
     options = parser.parse_args()
-    browser = next((b for b in BROWSERS if shutil.which(b)), None)
+    browser = find_browser()
     if browser is None:
         print("no Chromium: pages are not tested")
         return 77
@@ -150,7 +117,8 @@ def main():
             low, high = (np.array(b) for b in solid.bounds)
             sections = [(k, float(low[k] + p * (high[k] - low[k]))) for k in range(3) for p in (0.37, 0.613)]
             vertices = [7919 * i for i in range(300)]
-            found = ask(browser, page, {"picks": options.picks, "seed": 5, "sections": sections, "vertices": vertices})
+            found = ask(browser, page, "report",
+                        {"picks": options.picks, "seed": 5, "sections": sections, "vertices": vertices})
             check_picks(solid, found["picks"])
             check_sections(options.command, files, operation, sections, found["sections"])
             check_vertices(found["vertices"], made=len(files) > 1)
@@ -158,7 +126,7 @@ def main():
                   f"{len(sections)} sections, {len(vertices)} vertices, {page.stat().st_size} bytes")
             if options.screenshots:
                 options.screenshots.mkdir(parents=True, exist_ok=True)
-                browse(browser, page, f"--screenshot={(options.screenshots / f'page{number}.png').resolve()}")
+                picture(browser, page, options.screenshots / f"page{number}.png")
     return 0
 
 

@@ -4,11 +4,15 @@
 
 import { measure } from './measure.js';
 import { Arrays, Model } from './model.js';
-import { Scene, palette } from './scene.js';
+import { HierarchyPage } from './hierarchy_page.js';
+import { palette, randomNumbers } from './picture.js';
+import { byId } from './parts.js';
+import { Scene } from './scene.js';
 import { areaOf, sectionLoops } from './section.js';
+import { StagePage } from './stage_page.js';
+import { TreePage } from './tree_page.js';
 
 const axes = ['x', 'y', 'z'];
-const byId = (id) => document.getElementById(id);
 
 class Page {
   constructor(facts, model, scene) {
@@ -80,6 +84,8 @@ class Page {
       '[': () => step(-5),
       ']': () => step(5),
       r: () => this.scene.lookFrom([1, -1.3, 0.9]),
+      n: () => this.step(1),
+      p: () => this.step(-1),
       Escape: () => this.forget(),
     };
     if (!e.ctrlKey && !e.metaKey && !e.altKey && actions[e.key]) actions[e.key]();
@@ -115,6 +121,17 @@ class Page {
     const item = this.scene.pick(x, y);
     if (!item) return this.forget();
     this.picked = [...this.picked.slice(-1), item];
+    this.show();
+  }
+
+  /** The next face, for those who do not point. */
+  step(by) {
+    const last = this.picked.at(-1);
+    const from = last?.kind === 'face' ? last.number : by > 0 ? -1 : 0;
+    const number = (from + by + this.model.faceCount) % this.model.faceCount;
+    const item = { kind: 'face', number, face: number };
+    this.picked = [item];
+    this.scene.highlight(item);
     this.show();
   }
 
@@ -175,11 +192,7 @@ function driver(page) {
     exactPoint: (v) => page.model.exactPoint(v).map((x) => `${x.n}/${x.d}`),
     /** Rays through random pixels and what is hit: face, and where. */
     samples: (count, seed) => {
-      let state = BigInt(seed);
-      const random = () => {
-        state = (state * 6364136223846793005n + 1442695040888963407n) & 0xffffffffffffffffn;
-        return Number(state >> 11n) / 2 ** 53;
-      };
+      const random = randomNumbers(seed);
       const { scene, model } = page;
       const { clientWidth: w, clientHeight: h } = scene.renderer.domElement;
       const out = [];
@@ -194,7 +207,8 @@ function driver(page) {
         const to = v.toArray().map((c, k) => c + scene.middle[k]);
         const plane = model.plane(item.face);
         const exact = [...plane.normal, plane.offset].map((c) => `${c.n}/${c.d}`);
-        out.push({ eye, to, face: item.face, plane: exact });
+        const corners = [0, 1, 2].map((k) => model.point(model.triangles[3 * item.triangle + k]));
+        out.push({ eye, to, face: item.face, plane: exact, corners });
       }
       return out;
     },
@@ -217,9 +231,7 @@ function driver(page) {
   };
 }
 
-async function start() {
-  const facts = JSON.parse(byId('facts').textContent);
-  const arrays = await Arrays.read(byId('data').textContent.trim(), facts.places);
+function solidPage(facts, arrays) {
   const model = new Model(facts, arrays);
   const scene = new Scene(byId('view'), model);
   const inputs = Array.from({ length: facts.inputs }, (_, i) => ({
@@ -230,18 +242,38 @@ async function start() {
   const page = new Page(facts, model, scene);
   scene.resize();
   scene.drawNow();
-  window.trisect = driver(page);
+  return driver(page);
+}
+
+function stagePage(Kind, facts, arrays) {
+  const page = new Kind(facts, arrays);
+  page.stage.resize();
+  page.stage.drawNow();
+  return page.driver();
+}
+
+const pages = {
+  scene: (facts, arrays) => stagePage(StagePage, facts, arrays),
+  tree: (facts, arrays) => stagePage(TreePage, facts, arrays),
+  hierarchies: (facts, arrays) => stagePage(HierarchyPage, facts, arrays),
+};
+
+async function start() {
+  const facts = JSON.parse(byId('facts').textContent);
+  const arrays = await Arrays.read(byId('data').textContent.trim(), facts.places);
+  window.trisect = (pages[facts.page] ?? solidPage)(facts, arrays);
   // For programs that can only read the document: #call=FUNCTION&with=[ARGUMENTS] of the driver.
   const wanted = new URLSearchParams(location.hash.slice(1));
   const call = wanted.get('call');
   if (call && Object.hasOwn(window.trisect, call) && call !== 'page')
     byId('answer').textContent = JSON.stringify(
-      window.trisect[call](...JSON.parse(wanted.get('with') ?? '[]')),
+      (await window.trisect[call](...JSON.parse(wanted.get('with') ?? '[]'))) ?? null,
     );
   document.title = `${facts.title}: ready`;
 }
 
 start().catch((e) => {
-  byId('picked').textContent = `${e.message}\nThis page needs WebGL.`;
+  const place = byId('picked') ?? byId('panel');
+  place.textContent = `${e.message}\nThis page needs WebGL.`;
   document.title = `failed: ${e.message}`;
 });

@@ -3,50 +3,26 @@
 // The picture: faces by operand, edges, marks, a section, parts pulled apart.
 
 import * as THREE from 'three';
-import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
-import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
-import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
-import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { MeshBVH, acceleratedRaycast } from 'three-mesh-bvh';
 
-// Okabe and Ito 2008: told apart by all kinds of sight.
-export const palette = [
-  '#56b4e9', '#e69f00', '#009e73', '#f0e442', '#cc79a7', '#0072b2', '#d55e00', '#999999',
-];
-const mark = '#d01c8b';
+import { Picture, mark, palette, toSegment } from './picture.js';
 
-export class Scene {
+export class Scene extends Picture {
   constructor(canvas, model) {
+    super(
+      canvas,
+      model.low.map((l, k) => (l + model.high[k]) / 2),
+      model.size,
+    );
     this.model = model;
-    this.middle = model.low.map((l, k) => (l + model.high[k]) / 2);
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, stencil: true, alpha: true });
-    this.renderer.setClearColor(0, 0); // what is behind is the page's colour
-    this.renderer.localClippingEnabled = true;
-    this.scene = new THREE.Scene();
-    this.camera = new THREE.PerspectiveCamera(35, 1, model.size / 1000, model.size * 20);
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener('change', () => this.draw());
     this.plane = new THREE.Plane(new THREE.Vector3(0, 0, -1), 0);
     this.planes = [];
     this.explosion = 0;
-    this.addLights();
     this.addFaces();
     this.addEdges();
     this.addMarks();
     this.addCap();
     this.lookFrom([1, -1.3, 0.9]);
-  }
-
-  // Small numbers, so that single precision is enough.
-  local(p) {
-    return p.map((x, k) => x - this.middle[k]);
-  }
-
-  addLights() {
-    this.scene.add(new THREE.HemisphereLight('#ffffff', '#8a94a3', 1.9));
-    this.sun = new THREE.DirectionalLight('#ffffff', 1.6);
-    this.scene.add(this.sun);
   }
 
   positionsOf(points, triangles) {
@@ -100,20 +76,9 @@ export class Scene {
   }
 
   addMarks() {
-    const line = (color, width) => {
-      const out = new LineSegments2(
-        new LineSegmentsGeometry(),
-        new LineMaterial({ color, linewidth: width, depthTest: false }),
-      );
-      out.visible = false;
-      out.frustumCulled = false;
-      out.renderOrder = 5;
-      this.scene.add(out);
-      return out;
-    };
-    this.markedEdge = line(mark, 4);
-    this.measured = line('#000000', 2);
-    this.loops = line('#d55e00', 3);
+    this.markedEdge = this.addLine(mark, 4);
+    this.measured = this.addLine('#000000', 2);
+    this.loops = this.addLine('#d55e00', 3);
     this.markedFace = new THREE.Mesh(
       new THREE.BufferGeometry(),
       new THREE.MeshBasicMaterial({
@@ -184,16 +149,9 @@ export class Scene {
         loop.forEach((p, i) =>
           ends.push(...this.local(p), ...this.local(loop[(i + 1) % loop.length])),
         );
-      this.loops.visible = ends.length > 0;
-      if (ends.length) this.setLine(this.loops, ends);
+      this.setLine(this.loops, ends);
     }
     this.draw();
-  }
-
-  setLine(line, ends) {
-    line.geometry.dispose();
-    line.geometry = new LineSegmentsGeometry().setPositions(ends);
-    line.visible = true;
   }
 
   /** The inputs of a boolean, to be seen through. */
@@ -292,63 +250,22 @@ export class Scene {
 
   /** The vertex, edge or face that is seen at a pixel, vertices and edges within some pixels. */
   pick(x, y, reach = 6) {
-    const { clientWidth: w, clientHeight: h } = this.renderer.domElement;
-    const raycaster = new THREE.Raycaster();
-    raycaster.setFromCamera(new THREE.Vector2((2 * x) / w - 1, 1 - (2 * y) / h), this.camera);
-    const found = this.hit(raycaster);
+    const found = this.hit(this.rayAt(x, y));
     if (!found) return null;
     const m = this.model;
     const face = m.faceOfTriangle[found.triangle];
-    const onScreen = (v) => {
-      const p = new THREE.Vector3(...this.shown(v)).project(this.camera);
-      return [((p.x + 1) * w) / 2, ((1 - p.y) * h) / 2];
-    };
+    const onScreen = (v) => this.pixelOf(this.shown(v));
     const corners = [0, 1, 2].map((k) => m.triangles[3 * found.triangle + k]);
     const at = corners.map(onScreen);
     for (let k = 0; k < 3; ++k)
       if (Math.hypot(at[k][0] - x, at[k][1] - y) <= reach)
-        return { kind: 'vertex', number: corners[k], face };
+        return { kind: 'vertex', number: corners[k], face, triangle: found.triangle };
     for (let k = 0; k < 3; ++k) {
       const edge = m.edgeBetween(corners[k], corners[(k + 1) % 3]);
       if (edge === undefined) continue;
       if (toSegment([x, y], at[k], at[(k + 1) % 3]) <= reach / 2)
-        return { kind: 'edge', number: edge, face };
+        return { kind: 'edge', number: edge, face, triangle: found.triangle };
     }
-    return { kind: 'face', number: face, face };
+    return { kind: 'face', number: face, face, triangle: found.triangle };
   }
-
-  lookFrom(direction) {
-    const d = new THREE.Vector3(...direction).normalize().multiplyScalar(1.75 * this.model.size);
-    this.camera.position.copy(d);
-    this.controls.target.set(0, 0, 0);
-    this.controls.update();
-  }
-
-  resize() {
-    const { clientWidth: w, clientHeight: h } = this.renderer.domElement;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
-    this.renderer.setSize(w, h, false);
-    this.camera.aspect = w / Math.max(1, h);
-    this.camera.updateProjectionMatrix();
-    this.draw();
-  }
-
-  draw() {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => this.drawNow());
-  }
-  drawNow() {
-    this.waiting = false;
-    this.sun.position.copy(this.camera.position).applyAxisAngle(this.camera.up, 0.5);
-    this.renderer.render(this.scene, this.camera);
-  }
-}
-
-function toSegment(p, a, b) {
-  const w = [b[0] - a[0], b[1] - a[1]];
-  const length = w[0] * w[0] + w[1] * w[1];
-  const along = length ? ((p[0] - a[0]) * w[0] + (p[1] - a[1]) * w[1]) / length : 0;
-  const t = Math.min(1, Math.max(0, along));
-  return Math.hypot(p[0] - a[0] - t * w[0], p[1] - a[1] - t * w[1]);
 }
