@@ -90,6 +90,7 @@ from ._trisect import (
     verify,
     write_mesh,
 )
+from .pages import solid_repr_html as _solid_repr_html
 
 __all__ = [
     "BodyId",
@@ -169,6 +170,8 @@ __all__ = [
     "verify",
     "write_mesh",
 ]
+
+setattr(Solid, "_repr_html_", _solid_repr_html)
 
 # Classes are found by copy, pickle and help() where they are imported from.
 for _name in __all__:
