@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gdml_loops.h"
+
 namespace trisect::app {
 namespace {
 
@@ -80,6 +82,7 @@ GdmlDocument::GdmlDocument(std::string file, std::string bytes, const ReadLimits
     const detail::InputText source(bytes_, file_, limits_, false);
     TreeBuilder builder(source, root_);
     detail::read_xml(source, builder);
+    unroll_gdml_loops(root_, *this);
 }
 
 const GdmlElement& GdmlDocument::section(std::string_view name) const {

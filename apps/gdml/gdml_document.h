@@ -29,7 +29,8 @@ struct GdmlElement {
 
 class GdmlDocument {
 public:
-    /// The sections define, solids, structure and setup; materials are not kept.
+    /// The sections define, solids, structure and setup, with loops unrolled (gdml_loops.h);
+    /// materials are not kept.
     /// \throw InputError with the place, LimitError
     GdmlDocument(std::string file, std::string bytes, const ReadLimits& limits = {});
 

@@ -42,7 +42,6 @@ GdmlSolids::GdmlSolids(const GdmlSource& source) : source_(source) {
     for (const GdmlElement& section : source.document.root().children) {
         if (section.name != "solids") continue;
         for (const GdmlElement& e : section.children) {
-            if (e.name == "loop") source.document.fail_unsupported(e, "<loop> is not supported");
             const std::string* name = e.find("name");
             if (name == nullptr) continue;
             const auto number = static_cast<std::uint32_t>(elements_.size());

@@ -34,6 +34,9 @@ public:
 
     [[nodiscard]] std::size_t size() const { return elements_.size(); }
     [[nodiscard]] const std::string& name(std::uint32_t solid) const { return names_[solid]; }
+    [[nodiscard]] const GdmlElement& element(std::uint32_t solid) const {
+        return *elements_[solid];
+    }
     [[nodiscard]] std::optional<std::uint32_t> find(const std::string& name) const;
 
     /// Those that are wanted, and what they are made of; the others stay empty. A solid that cannot

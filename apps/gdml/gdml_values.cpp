@@ -75,7 +75,6 @@ GdmlValues::GdmlValues(const GdmlDocument& document) : document_(document) {
 }
 
 void GdmlValues::define(const GdmlElement& e) {
-    if (e.name == "loop") document_.fail_unsupported(e, "<loop> is not supported");
     if (e.name == "matrix") {
         // Most are of optical properties, in units that no length has.
         if (auto made = matrix(e))

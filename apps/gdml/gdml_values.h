@@ -24,7 +24,7 @@ inline constexpr double steps_per_mm = 1e9;
 
 class GdmlValues final : public GdmlNames {
 public:
-    /// \throw InputError; UnsupportedError for loops
+    /// \throw InputError
     explicit GdmlValues(const GdmlDocument& document);
 
     [[nodiscard]] std::optional<double> value(std::string_view name,

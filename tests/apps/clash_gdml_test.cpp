@@ -198,6 +198,78 @@ TEST_F(ClashGdml, AssembliesAreWhatTheyPlace) {
     EXPECT_EQ(run().code, 5);
 }
 
+TEST_F(ClashGdml, ReplicasFillTheirMother) {
+    // The wall and the rods of pyg4ometry's T306 and T307: rods as wide as a copy, and wider.
+    add_solid("rod", R"(<box name="rod" x="2.5" y="10" z="10"/>)");
+    const std::string copies =
+        R"(<replicavol number="4"><volumeref ref="rod"/><replicate_along_axis><direction x="1"/>)"
+        R"(<width value="2.5" unit="mm"/><offset value="0" unit="mm"/></replicate_along_axis></replicavol>)";
+    placed = copies;
+    EXPECT_EQ(run().code, 0);
+    EXPECT_EQ(report()["geometry"]["pairs"]["compared"], 4 + 3);
+    solids.replace(solids.find("2.5"), 3, "2.6");
+    EXPECT_EQ(run().code, 1);
+    EXPECT_EQ(found(), (Found{"rod/0-mother overlapping 5", "rod/0-rod/1 overlapping 10",
+                              "rod/1-rod/2 overlapping 10", "rod/2-rod/3 overlapping 10",
+                              "rod/3-mother overlapping 5"}));
+    placed.replace(placed.find("x=\"1\""), 5, "rho=\"1\"");
+    EXPECT_EQ(run().code, 7);
+}
+
+TEST_F(ClashGdml, DivisionsBeginAtTheirOffset) {
+    add_solid("slice", R"(<box name="slice" x="10" y="2" z="10"/>)");
+    add_solid("bar", R"(<box name="bar" x="1" y="4" z="1"/>)");
+    const std::string end = R"(><volumeref ref="slice"/></divisionvol>)";
+    place("bar", R"(<position y="3"/>)", "bar");
+    // Slices from -4 to 4; the bar reaches from 1 to 5 and meets two of them in full.
+    for (const char* numbers : {R"( number="4" width="2")", R"( width="2" number="4" unit="mm")"}) {
+        placed = placed.substr(0, placed.find("<divisionvol"));
+        placed += R"(<divisionvol axis="kYAxis" offset="1")" + std::string(numbers) + end;
+        EXPECT_EQ(run().code, 1);
+        EXPECT_EQ(found(), (Found{"bar-slice/2 overlapping 1", "bar-slice/3 overlapping 2"}));
+    }
+    for (const char* numbers : {R"( number="5")", R"( width="2")"}) {
+        placed = R"(<divisionvol axis="kYAxis")" + std::string(numbers) + end;
+        EXPECT_EQ(run().code, 0) << run().err;
+        EXPECT_EQ(report()["geometry"]["pairs"]["compared"], 5 + 4);
+    }
+    for (const char* other : {R"(axis="kYAxis" number="4")", R"(axis="kPhi" number="5")"}) {
+        placed = "<divisionvol " + std::string(other) + end;
+        EXPECT_EQ(run().code, 7) << other;
+    }
+    placed = R"(<divisionvol axis="kYAxis")" + end;
+    EXPECT_EQ(run().code, 3);
+}
+
+TEST_F(ClashGdml, LoopsStandForTheirTurns) {
+    // Cubes of 1, 3 and 5 at 0, 3 and 6 on the x axis, and a matrix that has an index itself.
+    define = R"(<variable name="i" value="1"/><constant name="last" value="5"/>)"
+             R"(<matrix name="m" coldim="1" values="1 9 3 9 5"/>)";
+    solids +=
+        R"(<loop for="i" to="last" step="2"><box name="b[i]" x="m[i]" y="i" z="1*i"/></loop>)";
+    volumes = R"(<loop for="i" to="last" step="2">)"
+              R"(<volume name="b[i]"><solidref ref="b[i]"/></volume></loop>)";
+    placed = R"(<loop for="i" from="1" to="last" step="2"><physvol name="p[i]">)"
+             R"(<volumeref ref="b[i]"/><position x="3*(i-1)/2"/></physvol></loop>)";
+    EXPECT_EQ(run().code, 1) << run().err;
+    // From -0.5 to 0.5, 1.5 to 4.5 and 3.5 to 8.5.
+    EXPECT_EQ(found(), (Found{"p_2-p_4 overlapping 9", "p_4-mother overlapping 175/2"}));
+    const std::string inner = R"(<loop for="j" from="1" to="3" step="1">)"
+                              R"(<physvol name="q[i,j]"><volumeref ref="b_0"/>)"
+                              R"(<position x="i" y="j"/></physvol></loop>)";
+    placed = R"(<loop for="i" from="0" to="2" step="1">)" + inner + "</loop>";
+    EXPECT_EQ(run().code, 0) << run().err;
+    EXPECT_EQ(report()["geometry"]["pairs"]["compared"], 9 + 12 + 8);
+    for (const char* wrong :
+         {R"(for="i" from="1" to="2" step="0")", R"(for="i" from="1" to="2.5" step="1")",
+          R"(for="k" to="2" step="1")", R"(for="i" to="2")"}) {
+        placed = "<loop " + std::string(wrong) + ">" + inner + "</loop>";
+        EXPECT_EQ(run().code, 3) << wrong;
+    }
+    placed = R"(<loop for="i" from="1" to="999999999" step="1"><position/></loop>)";
+    EXPECT_EQ(run().code, 5);
+}
+
 TEST_F(ClashGdml, WhatIsNotSupportedIsNamed) {
     add_solid("c", R"(<box name="c" x="2" y="2" z="2"/>)");
     add_solid("h", R"(<hype name="h" rmin="1" rmax="2" inst="1" outst="1" z="2"/>)");
