@@ -45,6 +45,7 @@ class TrisectConan(ConanFile):
         toolchain.cache_variables["TRISECT_BATCHES"] = True
         toolchain.cache_variables["TRISECT_INSTALL"] = True
         toolchain.cache_variables["TRISECT_WITH_3MF"] = False
+        toolchain.cache_variables["TRISECT_WITH_TEXT"] = False
         toolchain.cache_variables["TRISECT_WITH_TBB"] = bool(self.options.with_tbb)
         gmp = pathlib.Path(self.dependencies["gmp"].package_folder)
         toolchain.cache_variables["CMAKE_PREFIX_PATH"] = gmp.as_posix()

@@ -41,6 +41,14 @@ bool CsgArguments::truth(std::string_view name, bool otherwise) const {
     return *value->truth();
 }
 
+std::string CsgArguments::text(std::string_view name, std::string_view otherwise) const {
+    const CsgValue* value = find(name);
+    if (value == nullptr) return std::string(otherwise);
+    if (value->text() == nullptr)
+        fail(ErrorCode::Input, value->place, std::string(name) + " must be a text");
+    return *value->text();
+}
+
 std::vector<bool> CsgArguments::truths(std::string_view name, std::size_t count) const {
     const CsgValue* value = find(name);
     if (value == nullptr) return std::vector<bool>(count, false);

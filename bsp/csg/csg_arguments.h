@@ -22,6 +22,7 @@ public:
     /// \throw CsgError (Input) when it is there and no finite number
     [[nodiscard]] double number(std::string_view name, double otherwise) const;
     [[nodiscard]] bool truth(std::string_view name, bool otherwise) const;
+    [[nodiscard]] std::string text(std::string_view name, std::string_view otherwise) const;
     /// As many truth values; one stands for all of them, and numbers but 0 are true.
     [[nodiscard]] std::vector<bool> truths(std::string_view name, std::size_t count) const;
     /// As many numbers; one number stands for all of them.

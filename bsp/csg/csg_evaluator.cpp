@@ -6,11 +6,13 @@
 // flush, and turned as a whole.
 #include <trisect/bsp/csg/csg_evaluator.h>
 
+#include <algorithm>
 #include <utility>
 
 #include <trisect/brep/primitives/hull.h>
 #include <trisect/bsp/solid_transform.h>
 
+#include <trisect/bsp/csg/csg_drawing.h>
 #include <trisect/bsp/csg/csg_extrude.h>
 #include <trisect/bsp/csg/csg_import.h>
 #include <trisect/bsp/csg/csg_key.h>
@@ -103,6 +105,7 @@ Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
         case CsgKind::Resize:
             return kept_formula(n, frame, [&] { return resized(n, frame); });
         case CsgKind::Import:
+            return program_.dimension(n) == 2 ? region(n, frame) : shape(n, frame);
         case CsgKind::Solid:
             return shape(n, frame);
         case CsgKind::Flat:
@@ -177,13 +180,19 @@ PolygonMesh CsgEvaluator::mesh_of(std::uint32_t n) {
     return name == "polyhedron" ? csg_polyhedron(in) : file_of(n);
 }
 
-/// Nothing when no file is named, as OpenSCAD has it where a program named none.
-PolygonMesh CsgEvaluator::file_of(std::uint32_t n) {
+/// Empty when no file is named, as OpenSCAD has it where a program named none.
+std::filesystem::path CsgEvaluator::file_named(std::uint32_t n) {
     const CsgArguments in = program_.arguments(n);
     if (!options_.reads_files) in.fail(ErrorCode::Unsupported, "files are not read");
     const std::filesystem::path file = csg_file(in, options_.folder.value_or(program_.folder()));
+    if (!file.empty()) kept_.note_file(file);
+    return file;
+}
+
+PolygonMesh CsgEvaluator::file_of(std::uint32_t n) {
+    const std::filesystem::path file = file_named(n);
     if (file.empty()) return {};
-    kept_.note_file(file);
+    const CsgArguments in = program_.arguments(n);
     return at_node(n, [&] {
         return program_.kind(n) == CsgKind::Import ? csg_import(in, file) : csg_surface(in, file);
     });
@@ -197,19 +206,57 @@ Expression CsgEvaluator::shape(std::uint32_t n, const CsgFrame& frame) {
     return kept_.keep(key, placed(n, mesh_of(n), frame.map));
 }
 
+Drawing CsgEvaluator::drawing_of(std::uint32_t n) {
+    if (program_.kind(n) == CsgKind::Import) return drawing_file(n);
+    const CsgArguments in = program_.arguments(n);
+    if (program_.node(n).name == "text") return at_node(n, [&] { return csg_text(in); });
+    return {{{outlines_of(program_.node(n), in), {}}}, {}};
+}
+
+/// Scaled by the argument `scale`, but for linear_extrude(), whose scale is that of its end.
+Drawing CsgEvaluator::drawing_file(std::uint32_t n) {
+    const std::filesystem::path file = file_named(n);
+    if (file.empty()) return {};
+    const CsgArguments in = program_.arguments(n);
+    const double scale = program_.kind(n) == CsgKind::Linear ? 1 : in.number("scale", 1);
+    return at_node(n, [&] { return csg_drawing_file(in, file, scale); });
+}
+
+Expression CsgEvaluator::prism_of_drawing(std::uint32_t n, Drawing drawing, const CsgFrame& frame) {
+    ++report_.meshes;
+    for (const std::string& text : drawing.remarks) remark(n, text);
+    const bool has_outlines = std::any_of(
+        drawing.shapes.begin(), drawing.shapes.end(),
+        [](const DrawingShape& s) { return !s.outlines.empty() || !s.strokes.empty(); });
+    if (!has_outlines) remark(n, "is empty");
+    return at_node(n, [&] { return drawing_prism(std::move(drawing), frame); });
+}
+
 Expression CsgEvaluator::region(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame);
     if (const Expression* known = kept_.formula(key)) return *known;
-    ++report_.meshes;
-    std::vector<Outline> paths = outlines_of(program_.node(n), program_.arguments(n));
-    if (paths.empty()) remark(n, "is empty");
-    const Expression prism = at_node(n, [&] { return even_odd_prism(std::move(paths), frame); });
-    return kept_.keep_formula(key, prism);
+    return kept_.keep_formula(key, prism_of_drawing(n, drawing_of(n), frame));
+}
+
+/// Old programs name a drawing instead of children.
+bool CsgEvaluator::names_drawing(std::uint32_t n) const {
+    return !csg_file(program_.arguments(n), {}).empty();
+}
+
+/// Another key than that of the extrusion itself.
+Expression CsgEvaluator::named_drawing(std::uint32_t n, const CsgFrame& frame) {
+    ++report_.leaves;
+    const std::string key = csg_key(program_, n, frame) + "drawing";
+    if (const Expression* known = kept_.formula(key)) return *known;
+    return kept_.keep_formula(key, prism_of_drawing(n, drawing_file(n), frame));
+}
+
+Expression CsgEvaluator::flat_content(std::uint32_t n, const CsgFrame& frame) {
+    return names_drawing(n) ? named_drawing(n, frame) : any_of(program_.node(n).children, 2, frame);
 }
 
 Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
-    refuse_drawing(n);
     const CsgArguments in = program_.arguments(n);
     const double height = in.number("height", 100);
     if (!(height > 0)) {
@@ -217,27 +264,18 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
         return Solid();
     }
     const double low = in.truth("center", false) ? -height / 2 : 0;
-    if (is_straight(in))
-        return any_of(program_.node(n).children, 2, {frame.map, low, low + height});
+    if (is_straight(in)) return flat_content(n, {frame.map, low, low + height});
     return kept_formula(n, frame, [&]() -> Expression {
-        const PlaneRegion base = flat_children_of(n);
-        return placed(n, csg_twisted(base, in, low, low + height), frame.map);
+        return placed(n, csg_twisted(base_of(n), in, low, low + height), frame.map);
     });
 }
 
 Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
-    refuse_drawing(n);
-    return placed(n, csg_revolved(flat_children_of(n), program_.arguments(n)), frame.map);
+    return placed(n, csg_revolved(base_of(n), program_.arguments(n)), frame.map);
 }
 
-/// Old programs name a drawing instead of children.
-void CsgEvaluator::refuse_drawing(std::uint32_t n) const {
-    const CsgArguments in = program_.arguments(n);
-    if (!csg_file(in, {}).empty()) in.fail(ErrorCode::Unsupported, "drawings are not read");
-}
-
-PlaneRegion CsgEvaluator::flat_children_of(std::uint32_t n) {
-    return region_of_faces(solid_of(any_of(program_.node(n).children, 2, CsgFrame())), 1);
+PlaneRegion CsgEvaluator::base_of(std::uint32_t n) {
+    return region_of_faces(solid_of(flat_content(n, CsgFrame())), 1);
 }
 
 Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {

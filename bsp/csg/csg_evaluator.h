@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include <trisect/bsp/csg/csg_frame.h>
 #include <trisect/bsp/csg/csg_kept.h>
 #include <trisect/bsp/csg/csg_program.h>
+#include <trisect/bsp/csg/drawing/drawing.h>
 
 namespace trisect::detail {
 
@@ -65,12 +67,18 @@ private:
     [[nodiscard]] PolygonMesh mesh_of(std::uint32_t n);
     [[nodiscard]] Expression shape(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression region(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Drawing drawing_of(std::uint32_t n);
+    [[nodiscard]] Expression named_drawing(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Drawing drawing_file(std::uint32_t n);
+    [[nodiscard]] Expression prism_of_drawing(std::uint32_t n, Drawing drawing,
+                                              const CsgFrame& frame);
 
     // What is made of children.
     [[nodiscard]] Expression linear(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression revolved(std::uint32_t n, const CsgFrame& frame);
-    void refuse_drawing(std::uint32_t n) const;
-    [[nodiscard]] PlaneRegion flat_children_of(std::uint32_t n);
+    [[nodiscard]] bool names_drawing(std::uint32_t n) const;
+    [[nodiscard]] Expression flat_content(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] PlaneRegion base_of(std::uint32_t n);
     [[nodiscard]] Expression hull(std::uint32_t n, const CsgFrame& frame);
 
     // What is made at the origin first, and put into place as a whole.
@@ -81,6 +89,7 @@ private:
     [[nodiscard]] Solid offset(std::uint32_t n);
     [[nodiscard]] Solid projection(std::uint32_t n);
     [[nodiscard]] Expression resized(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] std::filesystem::path file_named(std::uint32_t n);
     [[nodiscard]] PolygonMesh file_of(std::uint32_t n);
 
     const CsgProgram& program_;

@@ -4,12 +4,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <trisect/brep/polygon_mesh.h>
 
 #include <trisect/bsp/csg/csg_arguments.h>
 
 namespace trisect::detail {
+
+/// In small letters, with its dot.
+[[nodiscard]] std::string csg_extension(const std::filesystem::path& file);
 
 /// Whether import() reads a drawing, by the name of its file.
 [[nodiscard]] bool is_flat_import(const CsgArguments& arguments);
@@ -19,15 +23,17 @@ namespace trisect::detail {
 [[nodiscard]] std::filesystem::path csg_file(const CsgArguments& arguments,
                                              const std::filesystem::path& folder);
 
-/// A mesh of import(): STL, OFF, OBJ or PLY.
+/// A mesh of import(), of any format that is read.
 /// \throw CsgError (Unsupported) for other formats; InputError for a file that cannot be read
 [[nodiscard]] PolygonMesh csg_import(const CsgArguments& arguments,
                                      const std::filesystem::path& file);
 
-/// The solid of surface() below a height field of text: a line a row, numbers apart by blanks, "#"
-/// before remarks. A point of the mean height is in the middle of each cell; the bottom is 1 below
-/// the lowest point.
-/// \throw CsgError (Input) for text that is no number, (Unsupported) for pictures
+/// The solid of surface() below a height field. A point of the mean height is in the middle of each
+/// cell; the bottom is at 0, or 1 below the lowest point where that is below 1. Text has a line a
+/// row, numbers apart by blanks, "#" before remarks. PNG pictures have heights from 0 to 100 by
+/// brightness, the top row at the largest y; inverted ones from 100/255 down, as OpenSCAD has it.
+/// \throw CsgError (Input) for text that is no number, InputError for malformed pictures,
+/// UnsupportedError for pictures in a build without libpng
 [[nodiscard]] PolygonMesh csg_surface(const CsgArguments& arguments,
                                       const std::filesystem::path& file);
 

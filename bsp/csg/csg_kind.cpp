@@ -31,7 +31,8 @@ CsgKind csg_kind(std::string_view name) {
         {"surface", CsgKind::Solid},
         {"square", CsgKind::Flat},
         {"circle", CsgKind::Flat},
-        {"polygon", CsgKind::Flat}};
+        {"polygon", CsgKind::Flat},
+        {"text", CsgKind::Flat}};
     const auto it = kinds.find(name);
     return it == kinds.end() ? CsgKind::Unknown : it->second;
 }

@@ -25,6 +25,11 @@ Expression odd_of(std::vector<Expression> terms) {
     return terms[0];
 }
 
+Expression any_of_terms(const std::vector<Expression>& terms) {
+    if (terms.empty()) return Solid();
+    return terms.size() == 1 ? terms[0] : Expression::any_of(terms);
+}
+
 /// Nothing when it has no area.
 std::optional<PolygonMesh> prism(const Outline& outline, const CsgFrame& frame) {
     try {
@@ -49,14 +54,33 @@ Expression even_odd(const Outline& outline, const CsgFrame& frame) {
 
 }  // namespace
 
-Expression even_odd_prism(std::vector<Outline> paths, const CsgFrame& frame) {
+namespace {
+
+std::vector<Expression> prisms_of(std::vector<Outline> paths, const CsgFrame& frame) {
     std::vector<Expression> terms;
     for (Outline& outline : paths) {
         outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
         while (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
         if (outline.size() >= 3) terms.push_back(even_odd(outline, frame));
     }
-    return odd_of(terms);
+    return terms;
+}
+
+}  // namespace
+
+Expression even_odd_prism(std::vector<Outline> paths, const CsgFrame& frame) {
+    return odd_of(prisms_of(std::move(paths), frame));
+}
+
+Expression drawing_prism(Drawing drawing, const CsgFrame& frame) {
+    std::vector<Expression> shapes;
+    for (DrawingShape& shape : drawing.shapes) {
+        std::vector<Expression> terms = prisms_of(std::move(shape.outlines), frame);
+        for (std::vector<Outline>& stroke : shape.strokes)
+            terms.push_back(any_of_terms(prisms_of(std::move(stroke), frame)));
+        shapes.push_back(odd_of(std::move(terms)));
+    }
+    return any_of_terms(shapes);
 }
 
 }  // namespace trisect::detail

@@ -12,6 +12,7 @@
 #include <trisect/brep/primitives/point_2d.h>
 
 #include <trisect/bsp/csg/csg_arguments.h>
+#include <trisect/bsp/csg/drawing/degrees.h>
 
 namespace trisect::detail {
 
@@ -21,10 +22,6 @@ inline constexpr double shape_limit = 1 << 24;
 
 /// How many sides a circle of this radius has, by $fn, $fa and $fs. \throw CsgError (Limit)
 [[nodiscard]] std::uint32_t csg_fragments(const CsgArguments& arguments, double radius);
-
-/// Sine and cosine; multiples of 30 degrees have the exact value where it is a double.
-[[nodiscard]] double sine_of_degrees(double degrees);
-[[nodiscard]] double cosine_of_degrees(double degrees);
 
 // Meshes without faces are empty sets: a size that is not positive.
 [[nodiscard]] PolygonMesh csg_cube(const CsgArguments& arguments);

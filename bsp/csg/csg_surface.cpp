@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,11 +11,19 @@
 #include <trisect/bsp/csg/csg_import.h>
 #include <trisect/bsp/csg/csg_shapes.h>
 
+#ifdef TRISECT_WITH_PNG
+#include <trisect/bsp/csg/drawing/picture.h>
+#endif
+
 namespace trisect::detail {
 namespace {
 
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 constexpr double base_depth = 1;
+constexpr double highest_ground = 1;  // the bottom is at 0, or below where heights need it
+// Of pictures: OpenSCAD inverts from 1, not from the brightest.
+constexpr double brightest = 255;
+constexpr double picture_height = 100;
 
 using Rows = std::vector<std::vector<double>>;
 
@@ -55,6 +64,23 @@ Rows rows_of(const CsgArguments& arguments, std::string_view text) {
     return out;
 }
 
+/// From the lowest row up.
+Rows rows_of_picture(const CsgArguments& arguments, std::string_view bytes,
+                     const std::string& name) {
+#ifdef TRISECT_WITH_PNG
+    Rows rows = png_brightness(bytes, name, static_cast<std::size_t>(shape_limit));
+    std::reverse(rows.begin(), rows.end());
+    const bool is_inverted = arguments.truth("invert", false);
+    for (auto& row : rows)
+        for (double& h : row) h = (is_inverted ? 1 - h : h) * picture_height / brightest;
+    return rows;
+#else
+    (void)bytes;
+    arguments.fail(ErrorCode::Unsupported,
+                   "the picture " + name + " takes libpng, which this build lacks");
+#endif
+}
+
 class Field {
 public:
     Field(const Rows& rows, bool center)
@@ -65,7 +91,7 @@ public:
           y0_(center ? -(height_ - 1.0) / 2 : 0) {}
 
     PolygonMesh mesh() {
-        double least = rows_[0][0];
+        double least = highest_ground;
         for (const auto& row : rows_)
             least = std::min(least, *std::min_element(row.begin(), row.end()));
         for (std::uint32_t y = 0; y < height_; ++y)
@@ -129,10 +155,10 @@ private:
 }  // namespace
 
 PolygonMesh csg_surface(const CsgArguments& arguments, const std::filesystem::path& file) {
-    if (file.extension() == ".png" || file.extension() == ".PNG")
-        arguments.fail(ErrorCode::Unsupported, "pictures are not read");
     const FileBytes bytes = read_file(file, most_bytes);
-    const Rows rows = rows_of(arguments, bytes.view());
+    const Rows rows = csg_extension(file) == ".png"
+                          ? rows_of_picture(arguments, bytes.view(), file.string())
+                          : rows_of(arguments, bytes.view());
     if (rows.size() < 2 || rows[0].size() < 2) return {};
     return Field(rows, arguments.truth("center", false)).mesh();
 }

@@ -64,3 +64,40 @@ foreach(name IN LISTS TRISECT_LIBRARIES_OF_3MF)
         return()
     endif()
 endforeach()
+
+# Programs of OpenSCAD take text by FreeType, fontconfig and HarfBuzz, and pictures by libpng. A build that
+# does not find them refuses both by name.
+if(NOT DEFINED TRISECT_LIBRARIES_OF_TEXT)
+    set(TRISECT_LIBRARIES_OF_TEXT "")
+    if(TRISECT_WITH_TEXT AND NOT TRISECT_FEW_COMMANDS)
+        set(TRISECT_LIBRARIES_OF_TEXT png freetype fontconfig harfbuzz)
+    endif()
+endif()
+set(TRISECT_HEADER_png png.h)
+set(TRISECT_HEADER_freetype ft2build.h)
+set(TRISECT_HEADER_fontconfig fontconfig/fontconfig.h)
+set(TRISECT_HEADER_harfbuzz hb-ft.h)
+foreach(name IN LISTS TRISECT_LIBRARIES_OF_TEXT)
+    if(TARGET trisect::${name})
+        continue()
+    endif()
+    string(TOUPPER ${name} upper)
+    find_library(TRISECT_${upper}_LIBRARY ${name})
+    find_path(TRISECT_${upper}_INCLUDE_DIR ${TRISECT_HEADER_${name}} PATH_SUFFIXES freetype2 harfbuzz)
+    mark_as_advanced(TRISECT_${upper}_LIBRARY TRISECT_${upper}_INCLUDE_DIR)
+    if(TRISECT_${upper}_LIBRARY AND TRISECT_${upper}_INCLUDE_DIR)
+        add_library(trisect::${name} UNKNOWN IMPORTED)
+        set_target_properties(
+            trisect::${name}
+            PROPERTIES
+                IMPORTED_LOCATION "${TRISECT_${upper}_LIBRARY}"
+                INTERFACE_INCLUDE_DIRECTORIES "${TRISECT_${upper}_INCLUDE_DIR}"
+        )
+    elseif(CMAKE_FIND_PACKAGE_NAME STREQUAL "trisect")
+        set(trisect_FOUND FALSE)
+        set(trisect_NOT_FOUND_MESSAGE
+            "Trisect was built with ${name} (Debian: libpng-dev, libfreetype-dev, libfontconfig-dev, libharfbuzz-dev)"
+        )
+        return()
+    endif()
+endforeach()

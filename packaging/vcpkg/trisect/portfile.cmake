@@ -18,6 +18,7 @@ vcpkg_cmake_configure(
         -DTRISECT_BUILD_C=OFF
         -DTRISECT_BUILD_MANIFOLD=OFF
         -DTRISECT_WITH_3MF=OFF
+        -DTRISECT_WITH_TEXT=OFF
 )
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(PACKAGE_NAME trisect CONFIG_PATH lib/cmake/trisect)
