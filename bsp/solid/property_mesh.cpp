@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faces are not joined across the faces of operands, so that the name of a triangle's face says
+// where its corners are to be looked up. Weights are ratios of areas in the coordinate plane in
+// which the face is largest, in extended precision where the machine has it.
+#include <trisect/bsp/property_mesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include <trisect/kernel/error.h>
+
+namespace trisect {
+namespace {
+
+using Weight = long double;
+using Weights = std::array<Weight, 3>;
+using Corners = std::array<std::size_t, 3>;  ///< positions in PolygonMesh::corners
+
+std::array<Weight, 3> normal_of(const Point3d& a, const Point3d& b, const Point3d& c) {
+    std::array<Weight, 3> u{};
+    std::array<Weight, 3> v{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = Weight{b[k]} - a[k];
+        v[k] = Weight{c[k]} - a[k];
+    }
+    return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+}
+
+Weight dot(const std::array<Weight, 3>& a, const std::array<Weight, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// The face of an operand that a triangle lies in.
+class SourceFace {
+public:
+    SourceFace(const PropertyOperand& operand, std::uint32_t face)
+        : mesh_(*operand.mesh), begin_(mesh_.face_begin[face]), end_(mesh_.face_begin[face + 1]) {}
+
+    [[nodiscard]] const Point3d& point(std::size_t corner) const {
+        return mesh_.points[mesh_.corners[corner]];
+    }
+
+    /// The sum of the normals of the fan.
+    [[nodiscard]] std::array<Weight, 3> normal() const {
+        std::array<Weight, 3> out{};
+        for (std::size_t i = begin_ + 1; i + 1 < end_; ++i) {
+            const auto n = normal_of(point(begin_), point(i), point(i + 1));
+            for (std::size_t k = 0; k < 3; ++k) out[k] += n[k];
+        }
+        return out;
+    }
+
+    [[nodiscard]] std::optional<std::size_t> corner_at(const Point3d& p) const {
+        for (std::size_t i = begin_; i < end_; ++i)
+            if (point(i) == p) return i;
+        return std::nullopt;
+    }
+
+    /// The triangle of the fan that has the point, or misses it least.
+    [[nodiscard]] std::pair<Corners, Weights> place_of(const Point3d& p) const {
+        std::pair<Corners, Weights> best{{begin_, begin_, begin_}, {1, 0, 0}};
+        Weight most = -std::numeric_limits<Weight>::infinity();
+        for (std::size_t i = begin_ + 1; i + 1 < end_; ++i) {
+            const Corners corners{begin_, i, i + 1};
+            const auto weights = weights_in(corners, p);
+            if (!weights) continue;
+            const Weight least = *std::min_element(weights->begin(), weights->end());
+            if (least > most) {
+                most = least;
+                best = {corners, *weights};
+            }
+        }
+        for (Weight& w : best.second) w = std::max(w, Weight{0});
+        return best;
+    }
+
+private:
+    [[nodiscard]] std::optional<Weights> weights_in(const Corners& c, const Point3d& p) const {
+        const auto n = normal_of(point(c[0]), point(c[1]), point(c[2]));
+        std::size_t axis = 0;
+        for (std::size_t k = 1; k < 3; ++k)
+            if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
+        if (n[axis] == 0) return std::nullopt;
+        Weights out{};
+        for (std::size_t k = 0; k < 3; ++k)
+            out[k] = normal_of(p, point(c[(k + 1) % 3]), point(c[(k + 2) % 3]))[axis] / n[axis];
+        return out;
+    }
+
+    const PolygonMesh& mesh_;
+    std::size_t begin_;
+    std::size_t end_;
+};
+
+class PropertyWriter {
+public:
+    PropertyWriter(std::span<const PropertyOperand> operands, PropertyMesh& out) : out_(out) {
+        for (const PropertyOperand& operand : operands) add(operand);
+    }
+
+    void write() {
+        out_.properties.values.reserve(out_.mesh.corners.size() * out_.properties.width);
+        for (std::size_t t = 0; t < out_.mesh.face_count(); ++t) triangle(t);
+    }
+
+private:
+    void add(const PropertyOperand& operand) {
+        const bool fits = operand.mesh != nullptr &&
+                          (operand.properties == nullptr ||
+                           operand.properties->values.size() ==
+                               operand.properties->width * operand.mesh->corners.size());
+        if (!fits) throw UsageError("to_property_mesh: properties do not fit their mesh");
+        if (!operands_.emplace(operand.source_id, operand).second)
+            throw UsageError("to_property_mesh: an operand is named twice");
+        if (operand.properties != nullptr)
+            out_.properties.width = std::max(out_.properties.width, operand.properties->width);
+    }
+
+    void triangle(std::size_t t) {
+        const auto it = operands_.find(out_.source[t].operand);
+        const bool is_known =
+            it != operands_.end() && out_.source[t].face < it->second.mesh->face_count();
+        if (!is_known) {
+            out_.is_turned_over.push_back(false);
+            out_.properties.values.resize(out_.properties.values.size() +
+                                          3 * out_.properties.width);
+            return;
+        }
+        const SourceFace face(it->second, out_.source[t].face);
+        const auto corners = out_.mesh.face(t);
+        const auto& points = out_.mesh.points;
+        const auto normal = normal_of(points[corners[0]], points[corners[1]], points[corners[2]]);
+        out_.is_turned_over.push_back(dot(normal, face.normal()) < 0);
+        for (const std::uint32_t c : corners) corner(it->second, face, points[c]);
+    }
+
+    void corner(const PropertyOperand& operand, const SourceFace& face, const Point3d& p) {
+        std::vector<double>& values = out_.properties.values;
+        const std::size_t first = values.size();
+        values.resize(first + out_.properties.width);
+        if (operand.properties == nullptr) return;
+        const CornerProperties& from = *operand.properties;
+        if (const auto same = face.corner_at(p)) {
+            std::copy_n(from.at(*same).begin(), from.width,
+                        values.begin() + static_cast<std::ptrdiff_t>(first));
+            return;
+        }
+        const auto [corners, weights] = face.place_of(p);
+        const Weight sum = weights[0] + weights[1] + weights[2];
+        for (std::size_t i = 0; i < from.width; ++i) {
+            Weight value = 0;
+            double least = std::numeric_limits<double>::infinity();
+            double most = -least;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double v = from.at(corners[k])[i];
+                value += weights[k] / sum * v;
+                least = std::min(least, v);
+                most = std::max(most, v);
+            }
+            values[first + i] = std::clamp(static_cast<double>(value), least, most);
+        }
+    }
+
+    std::map<std::uint32_t, PropertyOperand> operands_;
+    PropertyMesh& out_;
+};
+
+}  // namespace
+
+PropertyMesh to_property_mesh(const Solid& solid, std::span<const PropertyOperand> operands) {
+    PropertyMesh out;
+    PropertyWriter writer(operands, out);
+    MeshMap map;
+    out.mesh = to_polygon_mesh(solid.to_brep({.maximal_faces = false}), {}, &map);
+    out.source = std::move(map.source);
+    writer.write();
+    return out;
+}
+
+}  // namespace trisect
