@@ -15,7 +15,7 @@
 namespace trisect {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, MeshFormat>, 9> names{{
+constexpr std::array<std::pair<std::string_view, MeshFormat>, 11> names{{
     {"obj", MeshFormat::Obj},
     {"stl", MeshFormat::Stl},
     {"stl-ascii", MeshFormat::StlAscii},
@@ -25,6 +25,8 @@ constexpr std::array<std::pair<std::string_view, MeshFormat>, 9> names{{
     {"3mf", MeshFormat::ThreeMf},
     {"glb", MeshFormat::Glb},
     {"amf", MeshFormat::Amf},
+    {"step", MeshFormat::Step},
+    {"dxf", MeshFormat::Dxf},
 }};
 
 constexpr char lower(char c) noexcept {
@@ -69,6 +71,20 @@ bool is_obj_keyword(std::string_view word) noexcept {
     return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
 }
 
+/// The first pair of lines is 0 and SECTION, after comments, whose code is 999.
+bool begins_like_dxf(std::string_view data) noexcept {
+    data = skip_preamble(data, false);
+    while (first_word(data) == "999") {
+        for (int line = 0; line < 2; ++line) {
+            const std::size_t eol = data.find_first_of("\r\n");
+            if (eol == std::string_view::npos) return false;
+            data = skip_preamble(data.substr(eol), false);
+        }
+    }
+    if (first_word(data) != "0") return false;
+    return first_word(skip_preamble(data.substr(1), false)) == "SECTION";
+}
+
 bool has_binary_stl_size(std::string_view data) noexcept {
     if (data.size() < detail::stl_header_size) return false;
     const auto count = detail::load<std::uint32_t, false>(data.data() + 80);
@@ -98,8 +114,11 @@ std::optional<MeshFormat> mesh_format_from_name(std::string_view name) noexcept 
 
 std::optional<MeshFormat> mesh_format_of_extension(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
-    if (extension.size() != 4) return std::nullopt;  // all of ours have three letters
-    return mesh_format_from_name(std::string_view(extension).substr(1));
+    const std::string_view word = std::string_view(extension).substr(extension.empty() ? 0 : 1);
+    if (same_word(word, "stp")) return MeshFormat::Step;
+    // The names of the two kinds of STL are no extensions.
+    if (word.size() != 3 && !same_word(word, "step")) return std::nullopt;
+    return mesh_format_from_name(word);
 }
 
 bool holds_triangles_only(MeshFormat format) noexcept {
@@ -107,6 +126,8 @@ bool holds_triangles_only(MeshFormat format) noexcept {
         case MeshFormat::Obj:
         case MeshFormat::Off:
         case MeshFormat::Ply:
+        case MeshFormat::Step:
+        case MeshFormat::Dxf:
             return false;
         default:
             return true;
@@ -129,6 +150,8 @@ std::optional<MeshFormat> detect_mesh_format(std::string_view data) noexcept {
     if (skip_preamble(data, false).starts_with('<') &&
         data.substr(0, 1024).find("<amf") != std::string_view::npos)
         return MeshFormat::Amf;
+    if (skip_preamble(data, false).starts_with("ISO-10303-21")) return MeshFormat::Step;
+    if (begins_like_dxf(data) || data.starts_with("AutoCAD Binary DXF")) return MeshFormat::Dxf;
     if (data.starts_with("ply\n") || data.starts_with("ply\r")) return MeshFormat::Ply;
     if (has_binary_stl_size(data)) return MeshFormat::StlBinary;
     if (begins_like_ascii_stl(data)) return MeshFormat::StlAscii;

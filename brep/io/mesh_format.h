@@ -19,23 +19,26 @@ enum class MeshFormat : std::uint8_t {
     Ply,      ///< the encoding stands in the file; for writing see WriteOptions
     ThreeMf,  ///< 3MF
     Glb,      ///< glTF 2.0 in one binary file
-    Amf       ///< reading only
+    Amf,
+    Step,  ///< STEP, planar faces
+    Dxf    ///< reading only: faces and meshes in three dimensions
 };
 
-/// "obj", "stl", "stl-ascii", "stl-binary", "off", "ply", "3mf", "glb", "amf".
+/// "obj", "stl", "stl-ascii", "stl-binary", "off", "ply", "3mf", "glb", "amf", "step", "dxf".
 [[nodiscard]] std::string_view to_string(MeshFormat format) noexcept;
 
 /// The inverse of to_string; nothing for another word. Letters of either case.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_from_name(std::string_view name) noexcept;
 
-/// The format that goes with the extension of `path` (.obj .stl .off .ply .3mf .glb .amf, either
-/// case).
+/// The format that goes with the extension of `path` (.obj .stl .off .ply .3mf .glb .amf .step
+/// .stp .dxf, either case).
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of_extension(const std::filesystem::path& path);
 
 /// The format that the bytes themselves show, for data without a name that decides. PLY, OFF and
 /// GLB have a magic word, a binary STL has exactly the size its count demands, an ASCII STL begins
 /// with `solid`, and an OBJ file is recognised by the keyword of its first statement. A zip archive
-/// is taken for 3MF, XML with an element `amf` in its first kilobyte for AMF.
+/// is taken for 3MF, XML with an element `amf` in its first kilobyte for AMF. STEP begins
+/// with `ISO-10303-21`, DXF with the group 0 SECTION.
 [[nodiscard]] std::optional<MeshFormat> detect_mesh_format(std::string_view data) noexcept;
 
 /// Whether a format has no faces of more than three corners.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Model: parts of a file, with names and materials.
-// A file may have more than one mesh. 3MF, GLB and AMF hold models; other formats hold one part
-// without a name.
+// A file may have more than one mesh. 3MF, GLB, AMF, STEP and DXF hold models; other formats hold
+// one part without a name.
 #pragma once
 
 #include <trisect/brep/polygon_mesh.h>

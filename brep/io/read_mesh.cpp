@@ -20,7 +20,7 @@ MeshFormat mesh_format_of(const std::filesystem::path& path, std::string_view da
     if (const auto by_content = detect_mesh_format(data)) return *by_content;
     throw InputError(FilePlace{path.string(), 0, 0, 0},
                      "neither the extension nor the content tells the format; known are obj, stl, "
-                     "off, ply, 3mf, glb and amf");
+                     "off, ply, 3mf, glb, amf, step and dxf");
 }
 
 PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::string& name,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Mesh readers: OBJ, STL, OFF and PLY into PolygonMesh.
-// STL may be ASCII or binary; PLY has all three encodings. 3MF, GLB and AMF are read, too, as one
-// mesh of all their parts (read_model.h).
+// STL may be ASCII or binary; PLY has all three encodings. 3MF, GLB, AMF, STEP and DXF are read,
+// too, as one mesh of all their parts (read_model.h).
 //
 // What is kept: every coordinate as the double nearest to its text, or the exact value of its
 // float; every polygon with its loop as written, also when corners repeat or the polygon has no
@@ -45,6 +45,7 @@ struct ReadLimits {
     std::uint64_t line_bytes = 1U << 20;       ///< one line of text
     std::uint64_t literal_characters = 4'096;  ///< one number in text
     std::uint64_t nesting = 64;                ///< of elements, components, nodes
+    std::uint64_t entities = 100'000'000;      ///< of a STEP file
     std::uint64_t instances = 100'000;         ///< of meshes, where files place them
     std::uint64_t archive_entries = 10'000;
     std::uint64_t unpacked_bytes = std::uint64_t{2} << 30;  ///< of an archive's read entries

@@ -37,6 +37,18 @@ Model read_parts(std::string_view data, MeshFormat format, const std::string& na
 #else
             lacks(name, "AMF", "expat");
 #endif
+        case MeshFormat::Step:
+#ifdef TRISECT_WITH_STEP
+            return detail::read_step(data, name, limits, report);
+#else
+            lacks(name, "STEP", "all formats");
+#endif
+        case MeshFormat::Dxf:
+#ifdef TRISECT_WITH_STEP
+            return detail::read_dxf_model(data, name, limits, report);
+#else
+            lacks(name, "DXF", "all formats");
+#endif
         default:
 #ifdef TRISECT_WITH_JSON
             return detail::read_glb(data, name, limits, report);
@@ -58,12 +70,24 @@ bool is_available(MeshFormat format) noexcept {
 #ifndef TRISECT_WITH_JSON
     if (format == MeshFormat::Glb) return false;
 #endif
+#ifndef TRISECT_WITH_STEP
+    if (format == MeshFormat::Step || format == MeshFormat::Dxf) return false;
+#endif
     (void)format;
     return true;
 }
 
 bool holds_models(MeshFormat format) noexcept {
-    return format == MeshFormat::ThreeMf || format == MeshFormat::Amf || format == MeshFormat::Glb;
+    switch (format) {
+        case MeshFormat::ThreeMf:
+        case MeshFormat::Glb:
+        case MeshFormat::Amf:
+        case MeshFormat::Step:
+        case MeshFormat::Dxf:
+            return true;
+        default:
+            return false;
+    }
 }
 
 Model model_of(PolygonMesh mesh) {

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Model readers: 3MF, GLB and AMF; and all that read_mesh reads, as one part.
+// Model readers: 3MF, GLB, AMF, STEP and DXF.
+// All else that read_mesh reads is one part.
+//
+// Of STEP, B-reps and models of shells with planar faces and straight edges are read, each a part,
+// where the assemblies of the file put them. A face is one polygon; holes are joined to its outline
+// by bridges (brep/joined_loops.h). Of DXF, 3DFACE, meshes, and blocks of them are read. What is
+// curved is refused by its name.
 //
 // Components, instances and nodes are carried out: each build item, constellation, object outside
 // of them, or node with a mesh is a part, its placed meshes in one. Maps are multiplied as
@@ -28,11 +34,15 @@ namespace trisect {
 struct ModelReport {
     std::size_t rounded_vertices = 0;
     double largest_move = 0;  ///< of one coordinate, in the file's unit
+    /// STEP: corners farther from the plane stated for their face than the file's uncertainty.
+    std::size_t off_plane_corners = 0;
+    double largest_plane_distance = 0;  ///< of any corner, in the file's unit
     friend bool operator==(const ModelReport&, const ModelReport&) = default;
 };
 
 /// Whether this build of the library has what it takes: 3MF takes libzip and expat, AMF expat
-/// (libzip where it is zipped), GLB nlohmann-json.
+/// (libzip where it is zipped), GLB nlohmann-json; STEP and DXF take nothing, but the library of
+/// scripts/demo lacks them.
 [[nodiscard]] bool is_available(MeshFormat format) noexcept;
 
 /// Whether files of a format hold parts, names and materials.

@@ -71,21 +71,55 @@ void check_materials(const Model& model, const std::string& name) {
     }
 }
 
+/// The formats that name units have few of them, and not the same names.
+std::string unit_for(const Model& model, MeshFormat format, const std::string& name) {
+    std::string unit = model.unit.empty() ? "millimeter" : model.unit;
+    const bool is_amf = format == MeshFormat::Amf;
+    if (unit == "foot" || unit == "feet") unit = is_amf ? "feet" : "foot";
+    const bool is_known = unit == "micron" || unit == "millimeter" ||
+                          (unit == "centimeter" && !is_amf) || unit == "meter" || unit == "inch" ||
+                          unit == "foot" || unit == "feet";
+    if (!is_known)
+        throw UnsupportedError(name + ": cannot write: " + (is_amf ? "AMF" : "3MF") +
+                               " has no unit " + unit + ", and nothing is scaled");
+    return unit;
+}
+
+std::string title_of(MeshFormat format) {
+    switch (format) {
+        case MeshFormat::ThreeMf:
+            return "3MF";
+        case MeshFormat::Amf:
+            return "AMF";
+        case MeshFormat::Step:
+            return "STEP";
+        case MeshFormat::Dxf:
+            return "DXF";
+        default:
+            return "GLB";
+    }
+}
+
 FormattedMesh format_parts(const Model& model, MeshFormat format, const std::string& name) {
     check_materials(model, name);
-    const std::string title = format == MeshFormat::Glb ? "GLB" : "3MF";
+    const std::string title = title_of(format);
+    if (format == MeshFormat::Dxf) throw UnsupportedError(name + ": DXF is read, not written");
     for (const ModelPart& part : model.parts) {
         check_points(part.mesh, name);
         check_faces(part.mesh, name);
-        check_triangles(part.mesh, name, title);
+        if (holds_triangles_only(format)) check_triangles(part.mesh, name, title);
     }
+#ifdef TRISECT_WITH_STEP
+    if (format == MeshFormat::Step) return detail::write_step(model, name);
+    if (format == MeshFormat::Amf) return detail::write_amf(model, unit_for(model, format, name));
+#endif
 #if defined(TRISECT_WITH_ZIP) && defined(TRISECT_WITH_EXPAT)
-    if (format == MeshFormat::ThreeMf) return detail::write_three_mf(model);
+    if (format == MeshFormat::ThreeMf)
+        return detail::write_three_mf(model, unit_for(model, format, name));
 #endif
 #ifdef TRISECT_WITH_JSON
     if (format == MeshFormat::Glb) return detail::write_glb(model, name);
 #endif
-    if (format == MeshFormat::Amf) throw UnsupportedError(name + ": AMF is read, not written");
     throw UnsupportedError(name + ": this build of Trisect was made without what writing " + title +
                            " takes");
 }
@@ -94,7 +128,8 @@ WriteOptions with_format(const std::filesystem::path& path, WriteOptions options
     if (!options.format) options.format = mesh_format_of_extension(path);
     if (!options.format) {
         refuse(path.string(),
-               "the extension tells no format; known are .obj, .stl, .off, .ply, .3mf and .glb");
+               "the extension tells no format; known are .obj, .stl, .off, .ply, .3mf, .glb, .amf "
+               "and .step");
     }
     return options;
 }
@@ -137,6 +172,18 @@ FormattedMesh format_model(const Model& model, const WriteOptions& options,
     if (holds_models(*options.format)) return format_parts(model, *options.format, name);
     return format_mesh(model.parts.size() == 1 ? model.parts.front().mesh : merged(model), options,
                        name);
+}
+
+std::vector<std::vector<std::uint32_t>> faces_off_planes(const Model& model) {
+    for (const ModelPart& part : model.parts) {
+        check_points(part.mesh, "model");
+        check_faces(part.mesh, "model");
+    }
+#ifdef TRISECT_WITH_STEP
+    return detail::faces_off_planes_of(model);
+#else
+    return std::vector<std::vector<std::uint32_t>>(model.parts.size());
+#endif
 }
 
 WriteReport write_mesh(const std::filesystem::path& path, const PolygonMesh& mesh,

@@ -2,8 +2,9 @@
 //
 // Fuzzing of the readers of models. The first byte of an input chooses the format, unless
 // TRISECT_FUZZ_FORMAT says its number: GLB, AMF, the model part of a 3MF package (packed here,
-// since checksums stop mutations of packed text), and whole 3MF packages. Any model that is read
-// must keep its invariants and come back from what is written of it.
+// since checksums stop mutations of packed text), whole 3MF packages, STEP and DXF. Any model that
+// is read must keep its invariants and come back from what is written of it: of polygons, as STEP,
+// every coordinate.
 #include <trisect/brep/io/models/zip_archive.h>
 #include <trisect/brep/io/read_model.h>
 #include <trisect/brep/io/write_model.h>
@@ -17,6 +18,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace {
 
@@ -28,11 +30,14 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
-void check_invariants(const Model& model) {
+void check_invariants(const Model& model, bool has_triangles = true) {
     for (const ModelPart& part : model.parts) {
         const auto& mesh = part.mesh;
         require(mesh.face_begin.front() == 0 && mesh.face_begin.back() == mesh.corners.size());
-        for (std::size_t f = 0; f < mesh.face_count(); ++f) require(mesh.face(f).size() == 3);
+        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+            require(mesh.face(f).size() >= 3);
+            require(!has_triangles || mesh.face(f).size() == 3);
+        }
         for (const std::uint32_t corner : mesh.corners) require(corner < mesh.points.size());
         for (const auto& p : mesh.points)
             for (const double c : p) require(std::isfinite(c));
@@ -66,6 +71,24 @@ void check(const Model& model) {
     require(trisect::merged(from_glb).face_count() == trisect::merged(expected).face_count());
 }
 
+std::vector<trisect::Point3d> used_points(const Model& model) {
+    std::vector<trisect::Point3d> out;
+    for (const ModelPart& part : model.parts)
+        for (const std::uint32_t c : part.mesh.corners) out.push_back(part.mesh.points[c]);
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+/// What STEP cannot hold, or loops that bound nothing, may be refused; nothing may change.
+void check_polygons(const Model& model) {
+    check_invariants(model, false);
+    const auto file = trisect::format_model(model, {.format = MeshFormat::Step});
+    const Model again = trisect::read_model(file.bytes, MeshFormat::Step, "again");
+    check_invariants(again, false);
+    require(used_points(again) == used_points(model));
+}
+
 constexpr const char* relations =
     "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">"
     "<Relationship Id=\"a\" Target=\"/a\" "
@@ -77,7 +100,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const char* const only = std::getenv("TRISECT_FUZZ_FORMAT");
     if (size == 0) return 0;
     const std::string_view bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-    const auto choice = (only != nullptr ? std::strtoul(only, nullptr, 10) : data[0]) % 4;
+    const auto choice = (only != nullptr ? std::strtoul(only, nullptr, 10) : data[0]) % 6;
     trisect::ReadOptions options;
     options.limits.vertices = 20'000;
     options.limits.faces = 20'000;
@@ -92,6 +115,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 trisect::detail::zip_bytes({{"_rels/.rels", relations}, {"a", std::string(bytes)}});
             check(trisect::read_model(package, MeshFormat::ThreeMf, "fuzz", options));
         }
+        if (choice == 4)
+            check_polygons(trisect::read_model(bytes, MeshFormat::Step, "fuzz", options));
+        if (choice == 5)
+            check_polygons(trisect::read_model(bytes, MeshFormat::Dxf, "fuzz", options));
         if (choice == 3) check(trisect::read_model(bytes, MeshFormat::ThreeMf, "fuzz", options));
     } catch (const trisect::Error& e) {
         require(e.code() != trisect::ErrorCode::Internal);

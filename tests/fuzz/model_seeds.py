@@ -11,7 +11,7 @@ import struct
 import sys
 import zipfile
 
-GLB, AMF, MODEL, PACKAGE = range(4)
+GLB, AMF, MODEL, PACKAGE, STEP, DXF = range(6)
 POINTS = [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)]
 FACES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)]
 CORE = 'http://schemas.microsoft.com/3dmanufacturing/core/2015/02'
@@ -69,10 +69,56 @@ def package(kind):
     return out.getvalue()
 
 
+def step_text(voids):
+    """Two faces of a square plate with a hole, by edges; or a tetrahedron by points, in an assembly."""
+    head = "ISO-10303-21;HEADER;FILE_SCHEMA(('A'));ENDSEC;DATA;"
+    if not voids:
+        corners = [(0, 0), (4, 0), (4, 4), (0, 4), (1, 1), (1, 3), (3, 3), (3, 1)]
+        text = ''
+        for i, (x, y) in enumerate(corners):
+            j = i // 4 * 4 + (i + 1) % 4
+            text += (f"#{10 + i}=CARTESIAN_POINT('',({x}.,{y}.,1.));#{20 + i}=VERTEX_POINT('',#{10 + i});"
+                     f"#{30 + i}=EDGE_CURVE('',#{20 + i},#{20 + j},#9,.T.);#{40 + i}=ORIENTED_EDGE('',*,*,#{30 + i},.T.);")
+        loops = [','.join(f'#{40 + i}' for i in four) for four in (range(4), range(4, 8))]
+        text += (f"#50=EDGE_LOOP('',({loops[0]}));#51=EDGE_LOOP('',({loops[1]}));#52=FACE_OUTER_BOUND('',#50,.T.);"
+                 "#53=FACE_BOUND('',#51,.T.);#54=AXIS2_PLACEMENT_3D('',#10,$,$);#55=PLANE('',#54);#9=LINE('',#10,$);"
+                 "#56=ADVANCED_FACE('',(#52,#53),#55,.T.);#57=OPEN_SHELL('',(#56));"
+                 "#58=SHELL_BASED_SURFACE_MODEL('p',(#57));")
+        return head + text + 'ENDSEC;END-ISO-10303-21;'
+    text = ''.join(f"#{i + 1}=CARTESIAN_POINT('',({p[0]}.,{p[1]}.,{p[2]}.));" for i, p in enumerate(POINTS))
+    for i, f in enumerate(FACES):
+        text += (f"#{10 + i}=POLY_LOOP('',({','.join(f'#{c + 1}' for c in f)}));#{20 + i}=FACE_BOUND('',#{10 + i},.T.);"
+                 f"#{30 + i}=FACE('',(#{20 + i}));")
+    text += ("#40=CLOSED_SHELL('',(#30,#31,#32,#33));#41=ORIENTED_CLOSED_SHELL('',*,#40,.F.);"
+             "#42=BREP_WITH_VOIDS('b',#40,(#41));#50=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));"
+             "#51=UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE(1.E-7),#50,'','');"
+             "#52=(GEOMETRIC_REPRESENTATION_CONTEXT(3)GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT((#51))"
+             "GLOBAL_UNIT_ASSIGNED_CONTEXT((#50))REPRESENTATION_CONTEXT('',''));"
+             "#60=ADVANCED_BREP_SHAPE_REPRESENTATION('',(#42),#52);#61=DIRECTION('',(0.,1.,0.));"
+             "#62=AXIS2_PLACEMENT_3D('',#2,$,#61);#63=SHAPE_REPRESENTATION('',(#62,#67),#52);"
+             "#64=ITEM_DEFINED_TRANSFORMATION('','',#62,#62);#65=(REPRESENTATION_RELATIONSHIP('','',#60,#63)"
+             "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION(#64)SHAPE_REPRESENTATION_RELATIONSHIP());"
+             "#66=REPRESENTATION_MAP(#62,#60);#67=MAPPED_ITEM('',#66,#62);")
+    return head + text + 'ENDSEC;END-ISO-10303-21;'
+
+
+def dxf_text():
+    vertices = ''.join('0 VERTEX 70 192 10 %g 20 %g 30 %g ' % p for p in POINTS)
+    faces = ''.join('0 VERTEX 70 128 71 %d 72 %d 73 %d ' % tuple(c + 1 for c in f) for f in FACES)
+    mesh = ('0 MESH 91 0 92 4 ' + ''.join('10 %g 20 %g 30 %g ' % p for p in POINTS) + '93 16 ' +
+            ''.join('90 3 90 %d 90 %d 90 %d ' % f for f in FACES))
+    grid = '0 POLYLINE 70 16 71 2 72 2 ' + ''.join('0 VERTEX 10 %g 20 %g ' % p[:2] for p in POINTS) + '0 SEQEND '
+    words = ('0 SECTION 2 HEADER 9 $INSUNITS 70 4 0 ENDSEC 0 SECTION 2 BLOCKS 0 BLOCK 2 b 10 1 20 2 30 3 0 POLYLINE '
+             f'70 64 {vertices}{faces}0 SEQEND 0 ENDBLK 0 ENDSEC 0 SECTION 2 ENTITIES 0 INSERT 2 b 10 1 41 2 50 30 70 2 '
+             f'44 5 {mesh}{grid}0 3DFACE 8 w 10 0 20 0 30 0 11 1 21 0 31 0 12 0 22 1 32 0 13 0 23 1 33 0 0 ENDSEC 0 EOF')
+    return words.replace(' ', '\n') + '\n'
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     seeds = [(GLB, glb_file(False)), (GLB, glb_file(True)), (AMF, amf_text().encode()), (MODEL, model_text().encode()),
-             (PACKAGE, package(zipfile.ZIP_STORED)), (PACKAGE, package(zipfile.ZIP_DEFLATED))]
+             (PACKAGE, package(zipfile.ZIP_STORED)), (PACKAGE, package(zipfile.ZIP_DEFLATED)), (STEP, step_text(False).encode()),
+             (STEP, step_text(True).encode()), (DXF, dxf_text().encode())]
     for number, (choice, data) in enumerate(seeds):
         (folder / f'seed{number}').write_bytes(bytes([choice]) + data)
 

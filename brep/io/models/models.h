@@ -11,6 +11,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trisect::detail {
 
@@ -21,7 +22,15 @@ namespace trisect::detail {
 [[nodiscard]] Model read_glb(std::string_view data, const std::string& name,
                              const ReadLimits& limits, ModelReport& report);
 
-[[nodiscard]] FormattedMesh write_three_mf(const Model& model);
+[[nodiscard]] Model read_step(std::string_view data, const std::string& name,
+                              const ReadLimits& limits, ModelReport& report);
+[[nodiscard]] Model read_dxf_model(std::string_view data, const std::string& name,
+                                   const ReadLimits& limits, ModelReport& report);
+
+[[nodiscard]] FormattedMesh write_three_mf(const Model& model, const std::string& unit);
+[[nodiscard]] FormattedMesh write_amf(const Model& model, const std::string& unit);
+[[nodiscard]] FormattedMesh write_step(const Model& model, const std::string& name);
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> faces_off_planes_of(const Model& model);
 [[nodiscard]] FormattedMesh write_glb(const Model& model, const std::string& name);
 
 /// The first bytes of zip archives.

@@ -7,6 +7,7 @@
 
 #include <trisect/brep/io/formats/number_text.h>
 #include <trisect/brep/io/models/three_mf_names.h>
+#include <trisect/brep/io/models/xml_text.h>
 #include <trisect/brep/io/models/zip_archive.h>
 
 #include <array>
@@ -16,24 +17,6 @@ namespace {
 
 constexpr std::string_view xml_head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
 constexpr ModelColor grey{0xc8, 0xc8, 0xc8, 0xff};
-
-/// As the value of an attribute; control characters become blanks.
-std::string attribute_text(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-    return out;
-}
 
 std::string hex_text(const ModelColor& color) {
     constexpr std::string_view digits = "0123456789ABCDEF";
@@ -48,7 +31,7 @@ std::string hex_text(const ModelColor& color) {
 std::string materials_text(const Model& model) {
     std::string out = "  <basematerials id=\"1\">\n";
     for (const ModelMaterial& m : model.materials) {
-        out += "   <base name=\"" + attribute_text(m.name) + "\" displaycolor=\"" +
+        out += "   <base name=\"" + escaped_xml(m.name) + "\" displaycolor=\"" +
                hex_text(m.color.value_or(grey)) + "\"/>\n";
     }
     return out + "  </basematerials>\n";
@@ -86,7 +69,7 @@ std::string object_properties(const ModelPart& part) {
 void append_object(std::string& out, const ModelPart& part, std::size_t id) {
     reserve_text(out, part.mesh);
     out += "  <object id=\"" + std::to_string(id) + "\" type=\"model\"";
-    if (!part.name.empty()) out += " name=\"" + attribute_text(part.name) + "\"";
+    if (!part.name.empty()) out += " name=\"" + escaped_xml(part.name) + "\"";
     out += object_properties(part) + ">\n   <mesh>\n    <vertices>\n";
     append_vertices(out, part.mesh);
     out += "    </vertices>\n    <triangles>\n";
@@ -94,9 +77,8 @@ void append_object(std::string& out, const ModelPart& part, std::size_t id) {
     out += "    </triangles>\n   </mesh>\n  </object>\n";
 }
 
-std::string model_text(const Model& model) {
+std::string model_text(const Model& model, const std::string& unit) {
     std::string out(xml_head);
-    const std::string unit = model.unit.empty() ? "millimeter" : attribute_text(model.unit);
     out += "<model unit=\"" + unit + "\" xml:lang=\"en-US\" xmlns=\"" + std::string(three_mf_core) +
            "\">\n <metadata name=\"Application\">Trisect</metadata>\n <resources>\n";
     if (!model.materials.empty()) out += materials_text(model);
@@ -124,11 +106,11 @@ std::string relations() {
 
 }  // namespace
 
-FormattedMesh write_three_mf(const Model& model) {
+FormattedMesh write_three_mf(const Model& model, const std::string& unit) {
     FormattedMesh out;
     out.bytes = zip_bytes({{"[Content_Types].xml", content_types()},
                            {"_rels/.rels", relations()},
-                           {"3D/3dmodel.model", model_text(model)}});
+                           {"3D/3dmodel.model", model_text(model, unit)}});
     return out;
 }
 

@@ -27,9 +27,20 @@ std::vector<Sample> samples() {
         "</coordinates></vertex></vertices><volume materialid=\"2\"><triangle><v1>0</v1><v2>0</v2>"
         "<v3>0</v3></triangle></volume></mesh></object><constellation id=\"3\"><instance "
         "objectid=\"1\"><rx>3</rx></instance></constellation></amf>";
+    const std::string dxf_text =
+        "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n0\nPOLYLINE\n70\n64\n0\nVERTEX\n70\n192\n10\n1\n0\n"
+        "VERTEX\n70\n192\n10\n2\n0\nVERTEX\n70\n192\n20\n2\n0\nVERTEX\n70\n128\n71\n1\n72\n2\n73\n3"
+        "\n"
+        "0\nSEQEND\n0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n0\nINSERT\n2\nb\n50\n30\n"
+        "0\n3DFACE\n10\n0\n20\n0\n11\n1\n21\n0\n12\n0\n22\n1\n0\nENDSEC\n0\nEOF";
+    std::string step_text =
+        format_model(model_of(tetrahedron()), {.format = MeshFormat::Step}).bytes;
+    step_text.pop_back();  // the last line end may be missing
     return {{MeshFormat::Glb, format_model(model, {.format = MeshFormat::Glb}).bytes},
             {MeshFormat::ThreeMf, format_model(model, {.format = MeshFormat::ThreeMf}).bytes},
-            {MeshFormat::Amf, amf_text}};
+            {MeshFormat::Amf, amf_text},
+            {MeshFormat::Step, step_text},
+            {MeshFormat::Dxf, dxf_text}};
 }
 
 /// Whether it was a model; anything but a model or an error of ours is a failure.
