@@ -53,6 +53,18 @@ AssembleOptions assemble_options(const BooleanOptions& options) {
     return assembly;
 }
 
+/// Faces of a STEP file whose rounded corners are in no plane: the certificate is of triangles.
+void note_uneven(Session& session, const BooleanOptions& options, const PolygonMesh& mesh) {
+    ImportOptions import;
+    import.require_closed = false;
+    const std::size_t uneven = import_mesh(mesh, import).report.nonplanar_faces;
+    if (uneven == 0) return;
+    session.note(fmt::format(
+        "{}: the rounded corners of {} faces are not in one plane to the last digit; the "
+        "certificate is of their triangles, the file has the faces",
+        options.output, uneven));
+}
+
 /// By faces: assembles, certifies or repairs, and writes.
 void deliver_brep(Session& session, const BooleanOptions& options,
                   const std::vector<Operand>& operands, const Solid& solid, MeshFormat format,
@@ -81,6 +93,10 @@ void deliver_brep(Session& session, const BooleanOptions& options,
     }
     session.stage("write", [&] {
         if (!options.boundary.empty()) session.write_output(options.boundary, exact_text(brep));
+        if (format == MeshFormat::Step && !result.rounding) {
+            mesh = output_polygons(brep, format, &map);
+            note_uneven(session, options, mesh);
+        }
         // What a repair moved has no operands any more.
         result.written =
             holds_models(format) && !result.rounding
@@ -225,7 +241,8 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const MeshFormat format = is_native ? MeshFormat::Off : output_format(session, options.output);
     if (is_native) require_mesh_output(options);
     check_outputs(session, {options.output, options.boundary});
-    session.plan(needs_brep(options) && options.certificate ? 6 : 5);
+    const bool by_faces = needs_brep(options) || format == MeshFormat::Step;
+    session.plan(by_faces && options.certificate ? 6 : 5);
     const std::vector<Operand> operands = session.stage(
         "read", [&] { return read_operands(session, options.inputs, options.operands); });
     BooleanResult result;
@@ -240,7 +257,7 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     note_rounding(session, result.report.lattice, "the operands");
     if (is_native) {
         deliver_native(session, options, solid, result);
-    } else if (needs_brep(options)) {
+    } else if (by_faces) {
         deliver_brep(session, options, operands, solid, format, result);
     } else {
         deliver_mesh(session, options, operands, solid, format, result);

@@ -39,8 +39,9 @@ constexpr const char* exit_code_help =
 MeshFormat format_named(const std::string& name) {
     const auto format = mesh_format_from_name(name);
     if (format) return *format;
-    throw UsageError("--format: '" + name +
-                     "' is none of obj, stl, stl-ascii, stl-binary, off, ply, 3mf, glb, amf");
+    throw UsageError(
+        "--format: '" + name +
+        "' is none of obj, stl, stl-ascii, stl-binary, off, ply, 3mf, glb, amf, step, dxf");
 }
 
 int lattice_exponent(const std::string& text) {

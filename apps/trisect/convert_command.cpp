@@ -70,6 +70,14 @@ Json rounding_json(std::size_t moved, double max_move) {
     return out;
 }
 
+/// How far corners are from the planes that a STEP file states for their faces.
+Json planes_json(const ModelReport& report) {
+    Json out;
+    out["corners_off"] = report.off_plane_corners;
+    out["largest_distance"] = report.largest_plane_distance;
+    return out;
+}
+
 Json written_json(const WriteReport& report) {
     Json out;
     out["lossless"] = report.lossless;
@@ -151,6 +159,7 @@ Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
         out.document.update(model_json(model));
         out.document["placed"] =
             rounding_json(input.report.rounded_vertices, input.report.largest_move);
+        if (input.format == MeshFormat::Step) out.document["planes"] = planes_json(input.report);
     }
     out.document["matrix"] = map.rows();
     out.document["rounding"] = rounding_json(moved.moved, moved.max_move);

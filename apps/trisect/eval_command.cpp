@@ -35,7 +35,12 @@ void write_result(Session& session, const std::string& output, const Solid& soli
                   const PolygonMesh& mesh) {
     if (has_exact_boundary(output))
         return session.write_output(output, exact_text(solid.to_brep()));
-    write_output_mesh(session, output, output_format(session, output), mesh);
+    const MeshFormat format = output_format(session, output);
+    if (format == MeshFormat::Step)
+        write_output_mesh(session, output, format,
+                          output_polygons(solid.to_brep(), format, nullptr));
+    else
+        write_output_mesh(session, output, format, mesh);
 }
 
 // A file as it was when this was made.

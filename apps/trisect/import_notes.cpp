@@ -82,6 +82,13 @@ void note_model(Session& session, const std::string& name, const std::string& un
         session.note(fmt::format("{}: {} vertices rounded by transforms in the file, by at most {}",
                                  name, placed.rounded_vertices, number_text(placed.largest_move)));
     }
+    if (placed.off_plane_corners != 0) {
+        session.note(fmt::format(
+            "{}: {} corners are farther from the planes of their faces than the file's "
+            "uncertainty, "
+            "by up to {}; they stay where they are",
+            name, placed.off_plane_corners, number_text(placed.largest_plane_distance)));
+    }
 }
 
 void note_rounding(Session& session, const LatticeReport& report, const std::string& name) {

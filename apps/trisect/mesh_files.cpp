@@ -3,6 +3,7 @@
 
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/io/read_mesh.h>
+#include <trisect/brep/whole_faces.h>
 #include <trisect/bsp/native_file.h>
 
 #include <fmt/format.h>
@@ -80,10 +81,36 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
     const ImportedMesh imported = import_mesh(mesh, options);
     if (!imported.report.lattice.lossless) {
         throw UnsupportedError(
-            "this format holds triangles only, and the coordinates span too many "
+            "this format holds no such polygons, and the coordinates span too many "
             "bits to cut the polygons of this mesh exactly");
     }
     return plain_mesh(imported.mesh);
+}
+
+/// The mesh with these faces in triangles, which come last, with points of their own.
+PolygonMesh with_triangulated(const PolygonMesh& mesh, const std::vector<std::uint32_t>& faces) {
+    PolygonMesh cut;
+    cut.points = mesh.points;
+    PolygonMesh out;
+    out.points = mesh.points;
+    std::size_t next = 0;
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+        const bool is_cut = next < faces.size() && faces[next] == f;
+        next += is_cut ? 1U : 0U;
+        (is_cut ? cut : out).add_face(mesh.face(f));
+    }
+    append(out, triangulated(cut));
+    return out;
+}
+
+/// STEP has planar faces: the others are cut.
+void cut_uneven_faces(Model& model) {
+    const auto uneven = faces_off_planes(model);
+    for (std::size_t i = 0; i < model.parts.size(); ++i) {
+        if (uneven[i].empty()) continue;
+        model.parts[i].mesh = with_triangulated(model.parts[i].mesh, uneven[i]);
+        model.parts[i].materials.clear();
+    }
 }
 
 }  // namespace
@@ -150,7 +177,7 @@ MeshFormat output_format(const Session& session, const std::string& name) {
         throw UsageError("--json and '-o -' both want the standard output");
     }
     const auto format = common.format ? common.format : mesh_format_of_extension(name);
-    if (format == MeshFormat::Amf) throw UnsupportedError(name + ": AMF is read, not written");
+    if (format == MeshFormat::Dxf) throw UnsupportedError(name + ": DXF is read, not written");
     if (format && !is_available(*format)) {
         throw UnsupportedError(
             fmt::format("{}: this build does not write {}", name, to_string(*format)));
@@ -159,8 +186,8 @@ MeshFormat output_format(const Session& session, const std::string& name) {
     if (name == "-") throw UsageError("'-o -' needs --format");
     if (format) return *format;
     throw UsageError(fmt::format(
-        "{}: the extension tells no format; known are .obj .stl .off .ply .3mf .glb (or "
-        "use --format)",
+        "{}: the extension tells no format; known are .obj .stl .off .ply .3mf .glb .amf "
+        ".step (or use --format)",
         name));
 }
 
@@ -168,14 +195,16 @@ FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
                                  const PolygonMesh& mesh) {
     WriteOptions options;
     options.format = format;
+    if (format == MeshFormat::Step) return format_output_model(name, format, model_of(mesh));
     const bool cut = holds_triangles_only(format) && !has_only_triangles(mesh);
     return format_mesh(cut ? triangulated(mesh) : mesh, options, name);
 }
 
 FormattedMesh format_output_model(const std::string& name, MeshFormat format, Model model) {
     if (!holds_models(format)) return format_output_mesh(name, format, one_mesh(std::move(model)));
+    if (format == MeshFormat::Step) cut_uneven_faces(model);
     for (ModelPart& part : model.parts) {
-        if (has_only_triangles(part.mesh)) continue;
+        if (!holds_triangles_only(format) || has_only_triangles(part.mesh)) continue;
         part.mesh = triangulated(part.mesh);
         part.materials.clear();
     }
@@ -203,6 +232,10 @@ WriteReport write_output_mesh(Session& session, const std::string& name, MeshFor
 WriteReport write_output_model(Session& session, const std::string& name, MeshFormat format,
                                Model model) {
     return write_output_mesh(session, name, format_output_model(name, format, std::move(model)));
+}
+
+PolygonMesh output_polygons(const Brep& brep, MeshFormat format, MeshMap* map) {
+    return format == MeshFormat::Step ? whole_face_mesh(brep, map) : to_polygon_mesh(brep, {}, map);
 }
 
 PolygonMesh plain_mesh(const LatticeMesh& mesh) {

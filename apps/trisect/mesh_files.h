@@ -5,6 +5,7 @@
 // every error.
 #pragma once
 
+#include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/file_remarks.h>
 #include <trisect/brep/io/read_model.h>
@@ -44,7 +45,7 @@ private:
 [[nodiscard]] bool has_native_name(const std::string& name);
 void write_native_output(Session& session, const std::string& name, const Solid& solid);
 
-/// A file with its parts, which other formats than 3MF, GLB and AMF have one of.
+/// A file with its parts, which formats that hold no models have one of.
 struct InputModel {
     Model model;
     MeshFormat format = MeshFormat::Off;
@@ -81,7 +82,8 @@ void check_standard_input(std::span<const std::string> names);
 /// \throw UsageError when nothing tells it, or when a mesh and --json want the standard output.
 [[nodiscard]] MeshFormat output_format(const Session& session, const std::string& name);
 
-/// The bytes of a result. STL, 3MF and GLB get triangles only. For any thread.
+/// The bytes of a result. STL, 3MF, GLB and AMF get triangles only, STEP where faces are not
+/// planar. For any thread.
 [[nodiscard]] FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
                                                const PolygonMesh& mesh);
 /// The same. Faces that must be cut lose the materials of their part.
@@ -95,6 +97,10 @@ WriteReport write_output_model(Session& session, const std::string& name, MeshFo
                                Model model);
 WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
                               const PolygonMesh& mesh);
+
+/// The boundary in the polygons that the format holds: in STEP whole faces, holes joined by
+/// bridges.
+[[nodiscard]] PolygonMesh output_polygons(const Brep& brep, MeshFormat format, MeshMap* map);
 
 /// The triangles of an imported mesh in the user's units.
 [[nodiscard]] PolygonMesh plain_mesh(const LatticeMesh& mesh);

@@ -152,7 +152,8 @@ void write_stock(Session& session, const MillOptions& options, const MillRun& ru
     if (has_exact_boundary(options.output))
         return session.write_output(options.output, exact_text(brep));
     const MeshFormat format = output_format(session, options.output);
-    (void)write_output_mesh(session, options.output, format, to_polygon_mesh(brep));
+    (void)write_output_mesh(session, options.output, format,
+                            output_polygons(brep, format, nullptr));
 }
 
 Json statistics(const std::vector<MillRecord>& records, double MillTimes::*member) {

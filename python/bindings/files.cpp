@@ -28,7 +28,7 @@ std::optional<MeshFormat> format_of(const std::optional<std::string>& name) {
     if (!format)
         throw UsageError(
             "format: '" + *name +
-            "' is none of obj, stl, stl-ascii, stl-binary, off, ply, 3mf, glb and amf");
+            "' is none of obj, stl, stl-ascii, stl-binary, off, ply, 3mf, glb, amf, step and dxf");
     return format;
 }
 
@@ -88,14 +88,14 @@ void bind_files(py::module_& m) {
     c.def_static(
         "read", &read_solid, py::arg("path"), py::kw_only(), py::arg("embedding") = "check",
         py::arg("format") = py::none(),
-        R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB or AMF file, or of a native one (``.trisect``).
+        R"(The solid of an OBJ, STL, OFF, PLY, 3MF, GLB, AMF, STEP or DXF file, or of a native one (``.trisect``).
 
 Parameters
 ----------
 path : path_like
 embedding : {'check', 'assume', 'resolve'}
     See `Solid`; meshes are checked by default.
-format : {'obj', 'stl', 'stl-ascii', 'stl-binary', 'off', 'ply', '3mf', 'glb', 'amf', 'trisect'}, optional
+format : {'obj', 'stl', 'stl-ascii', 'stl-binary', 'off', 'ply', '3mf', 'glb', 'amf', 'step', 'dxf', 'trisect'}, optional
     By default the extension decides, else the content.
 
 Raises
@@ -107,7 +107,7 @@ InvalidSolid
 )");
     c.def(
         "write", &write_solid, py::arg("path"), py::kw_only(), py::arg("format") = py::none(),
-        R"(Writes the triangles of `mesh` to an OBJ, STL, OFF, PLY, 3MF or GLB file, or the solid to a native one.
+        R"(Writes the triangles of `mesh` to an OBJ, STL, OFF, PLY, 3MF, GLB, AMF or STEP file, or the solid to a native one.
 
 A native file (``.trisect``) has the solid to the last bit, with its tree and the names of its faces.
 )");

@@ -16,9 +16,12 @@ __version__: str
 _Floats = npt.NDArray[np.float64]
 _Path = Union[str, "PathLike[str]"]
 _Faces = Union[npt.ArrayLike, Sequence[Sequence[int]], Sequence[npt.NDArray[Any]]]
-_Format = Literal["obj", "stl", "stl-ascii", "stl-binary", "off", "ply", "3mf", "glb", "amf"]
+_Format = Literal[
+    "obj", "stl", "stl-ascii", "stl-binary", "off", "ply", "3mf", "glb", "amf", "step", "dxf"
+]
 _SolidFormat = Literal[
-    "obj", "stl", "stl-ascii", "stl-binary", "off", "ply", "3mf", "glb", "amf", "trisect"
+    "obj", "stl", "stl-ascii", "stl-binary", "off", "ply", "3mf", "glb", "amf", "step", "dxf",
+    "trisect",
 ]
 _Exact = Union[int, float, Fraction]
 _FaceName = Tuple[int, int]

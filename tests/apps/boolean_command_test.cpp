@@ -86,6 +86,16 @@ TEST_F(BooleanCommand, MemoryIsLimitedWhateverTheEncoding) {
     }
 }
 
+TEST_F(BooleanCommand, StepHasWholeFaces) {
+    const Finished result = trisect({"difference", a_, b_, "-o", path("out.step"), "--json"});
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.json()["certificate"]["certified"], true);
+    const json read = trisect({"info", path("out.step"), "--json"}).json();
+    EXPECT_EQ(read["faces"], 9);  // a box without a corner
+    EXPECT_EQ(trisect({"difference", a_, b_, "-o", path("out.off")}).code, 0);
+    EXPECT_EQ(trisect({"diff", path("out.off"), path("out.step")}).code, 0);
+}
+
 TEST_F(BooleanCommand, FirstBadInputIsReported) {
     const std::string open = open_box("open.obj");
     const Finished missing = trisect({"union", a_, path("none.obj"), open, "-o", out_});

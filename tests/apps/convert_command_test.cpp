@@ -46,7 +46,7 @@ TEST_F(ConvertCommand, EveryFormatIsReadBack) {
 
 TEST_F(ConvertCommand, ModelsAreReadBack) {
     if (!has_3mf) GTEST_SKIP() << "built without libzip or expat";
-    for (const char* name : {"b.3mf", "b.glb"}) {
+    for (const char* name : {"b.3mf", "b.glb", "b.amf"}) {
         const Finished written = trisect({"convert", box_, "-o", path(name)});
         ASSERT_EQ(written.code, 0) << name;
         const json description = info(path(name));
@@ -57,7 +57,27 @@ TEST_F(ConvertCommand, ModelsAreReadBack) {
         EXPECT_EQ(trisect({"diff", box_, path(name)}).code, 0) << name;
     }
     EXPECT_EQ(info(path("b.3mf"))["unit"], "millimeter");
-    EXPECT_EQ(trisect({"convert", box_, "-o", path("b.amf")}).code, 7);
+    EXPECT_EQ(trisect({"convert", box_, "-o", path("b.dxf")}).code, 7);
+}
+
+TEST_F(ConvertCommand, StepHasPlanarFaces) {
+    ASSERT_EQ(trisect({"convert", box_, "-o", path("b.step")}).code, 0);
+    const json description = info(path("b.step"));
+    EXPECT_EQ(description["volume"], 6);
+    EXPECT_EQ(description["faces"], 6);
+    EXPECT_EQ(description["unit"], "millimeter");
+    EXPECT_EQ(trisect({"diff", box_, path("b.step")}).code, 0);
+    // A turned box is not planar to the last digit, but to the uncertainty that the file states.
+    ASSERT_EQ(trisect({"convert", box_, "-o", path("t.stp"), "--rotate", "1,2,3,30"}).code, 0);
+    EXPECT_EQ(info(path("t.stp"))["faces"], 6);
+    // A lifted corner makes three faces uneven.
+    const std::string uneven = write("u.obj",
+                                     "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
+                                     "v 1 1 1.5\nv 0 1 1\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\n"
+                                     "f 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+    ASSERT_EQ(trisect({"convert", uneven, "-o", path("u.step")}).code, 0);
+    EXPECT_EQ(info(path("u.step"))["faces"], 7);
+    EXPECT_EQ(trisect({"diff", uneven, path("u.step")}).code, 0);
 }
 
 TEST_F(ConvertCommand, PartsAndUnitsAreKept) {
