@@ -5,11 +5,12 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/brep/embedding_findings.h>
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/measure.h>
-#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/native_file.h>
+#include <trisect/bsp/solid_of_findings.h>
 
 #include "choice.h"
 #include "commands.h"
@@ -55,7 +56,7 @@ struct ReadOperand {
     Json facts;
     ImportNote note;
     LatticeMesh mesh;  ///< of a mesh file
-    Embedding embedding = Embedding::Assume;
+    EmbeddingFindings findings;
     std::optional<Brep> brep;  ///< of an exact boundary
     std::optional<NativeFile> native;
 };
@@ -106,8 +107,8 @@ ReadOperand read_mesh_operand(const Session& session, const std::string& name,
         out.facts["parts"] = parts;
     }
     out.note = {name, std::move(imported.report), unit, input.report};
-    const bool is_free = options.assume_embedded || is_embedded(imported.mesh);
-    out.embedding = is_free ? Embedding::Assume : Embedding::Check;
+    out.findings.is_embedded = options.assume_embedded;
+    if (!options.assume_embedded) out.findings = find_embedding(imported.mesh);
     out.mesh = std::move(imported.mesh);
     return out;
 }
@@ -121,7 +122,7 @@ ReadOperand read_operand(const Session& session, const std::string& name,
 
 Solid solid_of(ReadOperand& read, const OperandOptions& options) {
     if (read.native) return read.native->solid({.names = NativeNames::Fresh});
-    if (!read.brep) return Solid::from_lattice_mesh(std::move(read.mesh), read.embedding);
+    if (!read.brep) return solid_of_findings(std::move(read.mesh), std::move(read.findings));
     const Embedding embedding = options.assume_embedded ? Embedding::Assume : Embedding::Check;
     const InsideOut inside_out = options.winding == EvaluateOptions::Winding::NonZero
                                      ? InsideOut::Accept

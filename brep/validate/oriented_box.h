@@ -41,12 +41,14 @@ struct TurnedBox {
         std::span<const std::array<std::uint32_t, 3>> triangles,
         std::span<const std::uint32_t> order);
 
-    /// True only if the boxes, as exact sets, are disjoint: an axis of one of them separates them.
+    /// True only if the boxes, as exact sets, are disjoint: an axis of one of them separates them,
+    /// or the one across their longest axes.
     [[nodiscard]] bool is_apart(const TurnedBox& other, const BoxFrame& frame) const;
 
 private:
     TurnedBox() = default;
-    [[nodiscard]] bool is_apart_along_own_axes(const TurnedBox& other, double margin) const;
+    [[nodiscard]] bool is_apart_across(const TurnedBox& other, double margin) const;
+    [[nodiscard]] const Vector& longest_axis() const;
 };
 
 }  // namespace trisect::detail

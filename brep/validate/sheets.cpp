@@ -25,9 +25,10 @@
 #include <span>
 #include <utility>
 
+#include <trisect/brep/face/region_outline.h>
 #include <trisect/brep/import/edge_table.h>
 #include <trisect/brep/import/prepared_mesh.h>
-#include <trisect/brep/validate/region_outline.h>
+#include <trisect/brep/validate/fans.h>
 #include <trisect/brep/validate/twins.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/flat_corner.h>
@@ -108,6 +109,15 @@ public:
         around_.resize(count);
     }
 
+    /// Their points, ascending.
+    [[nodiscard]] std::vector<std::uint32_t> points() const {
+        std::vector<std::uint32_t> out;
+        if (around_.empty()) return out;
+        for (std::size_t i = 0; i < hub_.size(); ++i)
+            if (hub_[i] != none) out.push_back(static_cast<std::uint32_t>(i));
+        return out;
+    }
+
     void turn(std::span<const Triangle> triangles, std::span<const RoughNormal> normals,
               std::vector<View>& views) {
         if (around_.empty()) return;
@@ -151,6 +161,7 @@ bool is_flat(const RoughNormal& n) { return n.sign == Signs{}; }
 
 struct Views {
     std::vector<View> of_triangle;
+    std::vector<std::uint32_t> hubs;
     bool are_all = true;  // false: there is a triangle without area
 };
 
@@ -165,7 +176,9 @@ Views choose_views(std::span<const LatticePoint> points, std::span<const Triangl
         views.are_all = views.are_all && !is_flat(normals.back());
     }
     check_stop(triangles.size());
-    Hubs(points.size(), triangles).turn(triangles, normals, views.of_triangle);
+    Hubs hubs(points.size(), triangles);
+    hubs.turn(triangles, normals, views.of_triangle);
+    views.hubs = hubs.points();
     end_step();
     return views;
 }
@@ -361,10 +374,13 @@ void add_faces(const PreparedMesh& mesh, std::uint32_t next, std::vector<std::ui
 }  // namespace
 
 std::vector<std::uint32_t> find_sheets(const PreparedMesh& mesh) {
-    SheetFinder finder(mesh.points, choose_views(mesh.points, mesh.triangles).of_triangle,
+    Views views = choose_views(mesh.points, mesh.triangles);
+    SheetFinder finder(mesh.points, std::move(views.of_triangle),
                        TriangleEdges(mesh.points.size(), mesh.triangles));
     std::vector<std::uint32_t> sheets = finder.run();
-    add_faces(mesh, finder.count(), sheets);
+    const std::uint32_t next =
+        add_fans(mesh.points, mesh.triangles, views.hubs, finder.count(), sheets);
+    add_faces(mesh, next, sheets);
     return sheets;
 }
 
@@ -373,7 +389,10 @@ std::optional<std::vector<std::uint32_t>> find_sheets(std::span<const LatticePoi
                                                       const Twins& twins) {
     Views views = choose_views(points, triangles);
     if (!views.are_all) return std::nullopt;
-    return SheetFinder(points, std::move(views.of_triangle), TwinEdges{twins, triangles}).run();
+    SheetFinder finder(points, std::move(views.of_triangle), TwinEdges{twins, triangles});
+    std::vector<std::uint32_t> sheets = finder.run();
+    add_fans(points, triangles, views.hubs, finder.count(), sheets);
+    return sheets;
 }
 
 }  // namespace trisect::detail

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <trisect/kernel/number/vector3.h>
 
@@ -11,13 +12,24 @@ namespace trisect::detail {
 
 namespace {
 
+// Smaller nodes are halved whatever their boxes.
+constexpr std::ptrdiff_t least_mixed = 32;
+
 // Moves the smaller half to the front, along the axis in which the centres of the boxes spread
-// most. `id` distinguishes equal centres.
+// most. `id` distinguishes equal centres. Boxes that are longer than half of that spread come apart
+// from the others first: they overlap most of these, and centres of needles are among those of
+// triangles that the needles pass at some distance. `parted`: whether that was done by the division
+// before this one, or by this one; never twice in a row, so that numbers are halved every other
+// time.
 template <class Iterator, class BoxOf, class IdOf>
-Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id_of) {
+Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id_of, bool& parted) {
     const auto centre = [&](const auto& item, std::size_t axis) {
         const LatticeBox& box = box_of(item);
         return coordinate(box.low, axis).to_double() + coordinate(box.high, axis).to_double();
+    };
+    const auto extent = [&](const auto& item, std::size_t axis) {
+        const LatticeBox& box = box_of(item);
+        return coordinate(box.high, axis).to_double() - coordinate(box.low, axis).to_double();
     };
     std::array<double, 3> low{}, high{};
     for (Iterator it = begin; it != end; ++it)
@@ -29,6 +41,16 @@ Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
         if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    if (!std::exchange(parted, false) && end - begin >= least_mixed) {
+        const double spread = (high[axis] - low[axis]) / 2;  // centres are doubled
+        const auto is_long = [&](const auto& item) { return 2 * extent(item, axis) > spread; };
+        if (std::any_of(begin, end, is_long)) {
+            const Iterator middle =
+                std::stable_partition(begin, end, [&](const auto& item) { return !is_long(item); });
+            parted = middle != begin && middle != end;
+            if (parted) return middle;
+        }
+    }
     const Iterator middle = begin + (end - begin) / 2;
     std::nth_element(begin, middle, end, [&](const auto& a, const auto& b) {
         const double ca = centre(a, axis);
@@ -51,7 +73,7 @@ TriangleTree::TriangleTree(std::span<const LatticePoint> points,
     end_step();
     Grouped grouped = group(sheets);
     end_step();
-    divide(grouped.items, grouped.triangles);
+    divide(grouped.items, grouped.triangles, false);
 }
 
 // Sheets in the order of their first triangles, after the loose triangles.
@@ -75,9 +97,9 @@ TriangleTree::Grouped TriangleTree::group(std::span<const std::uint32_t> sheets)
     return out;
 }
 
-// Recursive, but halving: 32 levels at most.
-std::uint32_t TriangleTree::divide(std::span<Item> items,
-                                   std::span<const std::uint32_t> triangles) {
+// Recursive, but halving every other time: 64 levels at most.
+std::uint32_t TriangleTree::divide(std::span<Item> items, std::span<const std::uint32_t> triangles,
+                                   bool parted) {
     check_stop();
     Node node;
     node.begin = static_cast<std::uint32_t>(order_.size());
@@ -102,9 +124,9 @@ std::uint32_t TriangleTree::divide(std::span<Item> items,
     }
     const auto middle = halve(
         items.begin(), items.end(), [](const Item& item) -> const LatticeBox& { return item.box; },
-        [](const Item& item) { return item.begin; });
-    const std::uint32_t left = divide({items.begin(), middle}, triangles);
-    const std::uint32_t right = divide({middle, items.end()}, triangles);
+        [](const Item& item) { return item.begin; }, parted);
+    const std::uint32_t left = divide({items.begin(), middle}, triangles, parted);
+    const std::uint32_t right = divide({middle, items.end()}, triangles, parted);
     nodes_[self].left = left;
     nodes_[self].right = right;
     return self;
@@ -124,15 +146,18 @@ std::array<std::uint32_t, 2> TriangleTree::children(std::uint32_t node) {
         const std::uint32_t begin = nodes_[node].begin;
         const std::uint32_t end = nodes_[node].end;
         check_stop(end - begin);
+        bool parted = nodes_[node].is_parted;
         const auto middle = halve(
             order_.begin() + begin, order_.begin() + end,
             [this](std::uint32_t t) -> const LatticeBox& { return boxes_[t]; },
-            [](std::uint32_t t) { return t; });
+            [](std::uint32_t t) { return t; }, parted);
         const auto split = static_cast<std::uint32_t>(middle - order_.begin());
         const std::uint32_t left = add_part(begin, split);
         const std::uint32_t right = add_part(split, end);
         nodes_[node].left = left;
         nodes_[node].right = right;
+        nodes_[left].is_parted = parted;
+        nodes_[right].is_parted = parted;
     }
     return {nodes_[node].left, nodes_[node].right};
 }
@@ -159,6 +184,34 @@ bool TriangleTree::TurnedBoxes::is_hot(std::uint32_t node) {
     visits = hot_visits + 1 + static_cast<std::uint32_t>(boxes_.size());
     boxes_.push_back(box ? *box : TurnedBox(frame_, n.box.low, n.box.high));
     return true;
+}
+
+unsigned TriangleTree::TurnedBoxes::meeting(std::uint32_t leaf, std::uint32_t other) {
+    const std::uint32_t count = tree_.nodes_[leaf].count();
+    const unsigned all = (1U << count) - 1;
+    if (visits_[leaf] <= hot_visits || visits_[other] <= hot_visits) return all;
+    const std::uint32_t first = triangles_of(leaf);
+    const TurnedBox& box = boxes_[visits_[other] - hot_visits - 1];
+    unsigned out = 0;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (!triangle_boxes_[first + i].is_apart(box, frame_)) out |= 1U << i;
+    return out;
+}
+
+// Makes the boxes of its triangles, if they are not there; returns the place of the first one.
+std::uint32_t TriangleTree::TurnedBoxes::triangles_of(std::uint32_t leaf) {
+    if (first_of_leaf_.size() < tree_.nodes_.size()) first_of_leaf_.resize(tree_.nodes_.size(), 0);
+    if (first_of_leaf_[leaf] != 0) return first_of_leaf_[leaf] - 1;
+    const auto first = static_cast<std::uint32_t>(triangle_boxes_.size());
+    first_of_leaf_[leaf] = first + 1;
+    const Node& n = tree_.nodes_[leaf];
+    for (std::uint32_t i = n.begin; i < n.end; ++i) {
+        const auto box = TurnedBox::around(frame_, tree_.points_, tree_.triangles_,
+                                           std::span(tree_.order_).subspan(i, 1));
+        const LatticeBox& usual = tree_.boxes_[tree_.order_[i]];
+        triangle_boxes_.push_back(box ? *box : TurnedBox(frame_, usual.low, usual.high));
+    }
+    return first;
 }
 
 TurnedBox TriangleTree::TurnedBoxes::box_of(std::uint32_t node) const {

@@ -37,9 +37,9 @@ struct LatticeBox {
     }
 };
 
-/// Balanced: median splits of the sheets and loose triangles, then within sheets; depth at most 66.
-/// A sheet is divided where a search comes to: most of it lies where nothing else is. Refers to the
-/// mesh; for one thread.
+/// Balanced: median splits of the sheets and loose triangles, then within sheets, and boxes that
+/// are long for their node apart from the others; depth at most 132. A sheet is divided where a
+/// search comes to: most of it lies where nothing else is. Refers to the mesh; for one thread.
 class TriangleTree {
 public:
     /// `sheets` gives each triangle a sheet, or no_sheet; empty if there are none. O(n log n).
@@ -62,7 +62,7 @@ public:
             if (i == k) {
                 if (nodes_[i].is_sheet) continue;
                 if (nodes_[i].is_leaf()) {
-                    if (!visit_leaves(i, i, visit)) return;
+                    if (!visit_leaf(i, visit)) return;
                     continue;
                 }
                 const auto [left, right] = children(i);
@@ -73,7 +73,7 @@ public:
                 const Node& a = nodes_[i];
                 const Node& b = nodes_[k];
                 if (a.is_leaf() && b.is_leaf()) {
-                    if (!visit_leaves(i, k, visit)) return;
+                    if (!visit_leaves({i, k}, turned, visit)) return;
                 } else if (b.is_leaf() || (!a.is_leaf() && a.count() >= b.count())) {
                     const auto [left, right] = children(i);
                     stack.push_back({right, k});
@@ -116,6 +116,7 @@ private:
         std::uint32_t begin = 0, end = 0;   // into order_
         std::uint32_t left = 0, right = 0;  // 0: a leaf, or not divided yet
         bool is_sheet = false;              // a whole one
+        bool is_parted = false;             // long boxes have come apart from others here
         [[nodiscard]] bool is_leaf() const { return count() <= leaf_size && left == 0; }
         [[nodiscard]] std::uint32_t count() const { return end - begin; }
     };
@@ -136,8 +137,12 @@ private:
     public:
         explicit TurnedBoxes(const TriangleTree& tree);
         [[nodiscard]] bool are_apart(std::uint32_t a, std::uint32_t b);
+        /// Bit i: the box of triangle i of a leaf may meet that of the other leaf. All where
+        /// neither leaf has been come to often.
+        [[nodiscard]] unsigned meeting(std::uint32_t leaf, std::uint32_t other);
 
     private:
+        [[nodiscard]] std::uint32_t triangles_of(std::uint32_t leaf);
         [[nodiscard]] bool is_hot(std::uint32_t node);
         [[nodiscard]] TurnedBox box_of(std::uint32_t node) const;
 
@@ -146,26 +151,44 @@ private:
         BoxFrame frame_;
         std::vector<std::uint32_t> visits_;  // by node; hot_visits + 1 + its number in boxes_
         std::vector<TurnedBox> boxes_;
+        std::vector<std::uint32_t> first_of_leaf_;  // by node: the first of its triangles' boxes
+        std::vector<TurnedBox> triangle_boxes_;
     };
 
     [[nodiscard]] Grouped group(std::span<const std::uint32_t> sheets) const;
-    std::uint32_t divide(std::span<Item> items, std::span<const std::uint32_t> triangles);
+    std::uint32_t divide(std::span<Item> items, std::span<const std::uint32_t> triangles,
+                         bool parted);
     // A node for a part of a sheet, without children.
     std::uint32_t add_part(std::uint32_t begin, std::uint32_t end);
     /// Divides the node if it is not. \pre it is no leaf. Moves the nodes.
     std::array<std::uint32_t, 2> children(std::uint32_t node);
 
     template <class Visit>
-    bool visit_leaves(std::uint32_t first, std::uint32_t second, Visit& visit) const {
-        const Node& a = nodes_[first];
-        const Node& b = nodes_[second];
-        for (std::uint32_t i = a.begin; i < a.end; ++i) {
-            for (std::uint32_t k = first == second ? i + 1 : b.begin; k < b.end; ++k) {
-                const std::uint32_t s = order_[i];
-                const std::uint32_t t = order_[k];
-                if (!boxes_[s].overlaps(boxes_[t])) continue;
-                if (!(s < t ? visit(s, t) : visit(t, s))) return false;
-            }
+    bool visit_pair(std::uint32_t s, std::uint32_t t, Visit& visit) const {
+        if (!boxes_[s].overlaps(boxes_[t])) return true;
+        return s < t ? visit(s, t) : visit(t, s);
+    }
+    template <class Visit>
+    bool visit_leaf(std::uint32_t leaf, Visit& visit) const {
+        const Node& a = nodes_[leaf];
+        for (std::uint32_t i = a.begin; i < a.end; ++i)
+            for (std::uint32_t k = i + 1; k < a.end; ++k)
+                if (!visit_pair(order_[i], order_[k], visit)) return false;
+        return true;
+    }
+    template <class Visit>
+    bool visit_leaves(const std::array<std::uint32_t, 2>& leaves, TurnedBoxes& turned,
+                      Visit& visit) const {
+        const Node& a = nodes_[leaves[0]];
+        const Node& b = nodes_[leaves[1]];
+        const unsigned of_a = turned.meeting(leaves[0], leaves[1]);
+        const unsigned of_b = of_a == 0 ? 0 : turned.meeting(leaves[1], leaves[0]);
+        for (std::uint32_t i = 0; i < a.count(); ++i) {
+            if ((of_a >> i & 1U) == 0) continue;
+            for (std::uint32_t k = 0; k < b.count(); ++k)
+                if ((of_b >> k & 1U) != 0 &&
+                    !visit_pair(order_[a.begin + i], order_[b.begin + k], visit))
+                    return false;
         }
         return true;
     }

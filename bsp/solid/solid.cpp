@@ -10,9 +10,8 @@
 #include <variant>
 #include <vector>
 
-#include <trisect/brep/kinds/facet_kinds.h>
+#include <trisect/brep/embedding_findings.h>
 #include <trisect/brep/measure.h>
-#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/assembly/outline_names.h>
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -21,6 +20,7 @@
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/solid/inside_out.h>
 #include <trisect/bsp/solid/uncut_root.h>
+#include <trisect/bsp/solid_of_findings.h>
 #include <trisect/kernel/plane_on_lattice.h>
 
 namespace trisect {
@@ -109,20 +109,22 @@ std::optional<Brep> brep_with_proved_names(const SolidState& s, const AssembleOp
     return brep;
 }
 
-Solid of_lattice_mesh(LatticeMesh mesh, Embedding embedding, std::uint32_t threads,
+EmbeddingFindings findings_of(const LatticeMesh& mesh, Embedding embedding) {
+    if (embedding == Embedding::Check) return find_embedding(mesh);
+    return {.is_embedded = embedding == Embedding::Assume, .kinds = {}};
+}
+
+Solid of_lattice_mesh(LatticeMesh mesh, EmbeddingFindings findings, std::uint32_t threads,
                       bool t_edges = false) {
     if (mesh.triangles.empty()) return {};
-    const bool embedded =
-        embedding == Embedding::Assume || (embedding == Embedding::Check && is_embedded(mesh));
-    std::optional<std::vector<detail::FacetKind>> kinds;
-    if (embedding == Embedding::Check && !embedded) kinds = detail::facet_kinds(mesh);
     const Lattice lattice = mesh.lattice;
     auto source = detail::Source::make(std::move(mesh), threads);
-    if (kinds) source = detail::Source::of_kinds(std::move(source), *std::move(kinds));
+    if (findings.kinds)
+        source = detail::Source::of_kinds(std::move(source), *std::move(findings.kinds));
     auto state = std::make_shared<SolidState>();
     state->lattice = lattice;
     state->form = tree_of(detail::uncut_root(*source, t_edges));
-    state->embedded = embedded;
+    state->embedded = findings.is_embedded;
     state->whole = source->is_whole();
     state->source = source->serial();
     return detail::solid_of(std::move(state));
@@ -133,7 +135,8 @@ Solid of_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out
     if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
     if (imported.report.inside_out) detail::require_accepted(embedding, inside_out);
     if (imported.mesh.triangles.empty()) return {};
-    return of_lattice_mesh(std::move(imported.mesh), embedding, threads,
+    EmbeddingFindings findings = findings_of(imported.mesh, embedding);
+    return of_lattice_mesh(std::move(imported.mesh), std::move(findings), threads,
                            imported.report.t_edges != 0);
 }
 
@@ -187,7 +190,12 @@ Solid Solid::half_space(const Plane& plane, Lattice lattice) {
 }
 
 Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
-    return of_lattice_mesh(std::move(mesh), embedding, 1);
+    EmbeddingFindings findings = findings_of(mesh, embedding);
+    return of_lattice_mesh(std::move(mesh), std::move(findings), 1);
+}
+
+Solid solid_of_findings(LatticeMesh mesh, EmbeddingFindings findings) {
+    return of_lattice_mesh(std::move(mesh), std::move(findings), 1);
 }
 
 Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {

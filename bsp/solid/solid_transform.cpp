@@ -15,12 +15,11 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/brep/embedding_findings.h>
 #include <trisect/brep/import_mesh.h>
-#include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/number/gmp_conversion.h>
-#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
@@ -283,11 +282,11 @@ StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
                   std::vector<FaceSource> names, bool is_complement) {
     auto state = std::make_shared<SolidState>();
     state->lattice = mesh.lattice;
-    state->embedded = is_embedded(mesh);
-    std::optional<std::vector<detail::FacetKind>> kinds;
-    if (!state->embedded) kinds = detail::facet_kinds(mesh);
+    EmbeddingFindings findings = find_embedding(mesh);
+    state->embedded = findings.is_embedded;
     auto source = detail::Source::named(detail::Source::make(std::move(mesh)), std::move(names));
-    if (kinds) source = detail::Source::of_kinds(std::move(source), *std::move(kinds));
+    if (findings.kinds)
+        source = detail::Source::of_kinds(std::move(source), *std::move(findings.kinds));
     state->form =
         detail::CellTree{{detail::uncut_root(*source, t_edges), is_complement}, {}, nullptr};
     state->whole = source->is_whole();

@@ -13,9 +13,9 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/face/region_outline.h>
 #include <trisect/brep/lattice_mesh.h>
 #include <trisect/brep/validate/oriented_box.h>
-#include <trisect/brep/validate/region_outline.h>
 #include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/brep/validate/validate.h>
@@ -304,6 +304,45 @@ TEST(Sheets, ConeOfManyTrianglesIsOneSheet) {
             {std::llround(0x1p40 * std::cos(a)), std::llround(0x1p40 * std::sin(a)), 0});
     }
     for (std::uint32_t i = 0; i < n; ++i) mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+    ValidateOptions options;
+    options.pair_limit = 100;
+    EXPECT_EQ(validate(mesh, options).count(DefectKind::SelfIntersection), 0U);
+}
+
+// Needles from one corner to lines along a bar, which turn to and fro around it: neighbours are
+// seen from opposite sides.
+LatticeMesh bar_of_needles(std::uint32_t lines, std::uint32_t n) {
+    LatticeMesh mesh;
+    mesh.points.push_back({0, 0, 0});
+    for (std::uint32_t j = 0; j < lines; ++j) {
+        const auto first = static_cast<std::uint32_t>(mesh.points.size());
+        for (std::uint32_t i = 0; i <= n; ++i) {
+            const double along = 0x1p40 * (n + 3 * i);
+            const double a = 2 * std::numbers::pi * j / lines + (i % 2 == 0 ? 0.01 : -0.01);
+            const double y = 0x1p42 * std::cos(a);
+            const double z = 0x1p42 * std::sin(a);
+            mesh.points.push_back({std::llround((2 * along + y + 2 * z) / 3),
+                                   std::llround((-2 * along + 2 * y + z) / 3),
+                                   std::llround((-along - 2 * y + 2 * z) / 3)});
+        }
+        for (std::uint32_t i = 0; i < n; ++i)
+            mesh.triangles.push_back({0, first + i, first + i + 1});
+    }
+    return mesh;
+}
+
+TEST(Sheets, NeedlesAlongABarAgreeWithAllPairs) {
+    LatticeMesh mesh = bar_of_needles(5, 40);
+    EXPECT_TRUE(expect_same_pairs(mesh));
+    // From the first line to the third one, through the second.
+    mesh.triangles.push_back({0, 1, 83});
+    mesh.triangles.push_back({0, 41, 72});
+    EXPECT_FALSE(expect_same_pairs(mesh));
+}
+
+TEST(Sheets, NeedlesAlongABarTakeFewPairs) {
+    const std::uint32_t n = 600;
+    const LatticeMesh mesh = bar_of_needles(4, n);
     ValidateOptions options;
     options.pair_limit = 100;
     EXPECT_EQ(validate(mesh, options).count(DefectKind::SelfIntersection), 0U);

@@ -11,7 +11,7 @@
 // Winding numbers change by one at a segment: from the bottom to the top of the line a segment that
 // runs with the sweep, its region above it, and one that runs against it must alternate.
 
-#include <trisect/brep/validate/region_outline.h>
+#include <trisect/brep/face/region_outline.h>
 
 #include <algorithm>
 #include <cmath>
