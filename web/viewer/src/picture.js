@@ -128,7 +128,8 @@ export class Picture {
     this.camera.aspect = w / Math.max(1, h);
     // Beside the panel, where there is room for both.
     if (w > 760) this.camera.setViewOffset(w, h, -165, 0, w, h);
-    else this.camera.clearViewOffset();
+    else this.camera.setViewOffset(w, h, 0, -0.2 * h, w, h);
+    this.camera.zoom = Math.min(1, 1.1 * this.camera.aspect); // on phones, what is wide
     this.camera.updateProjectionMatrix();
     this.draw();
   }
