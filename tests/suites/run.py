@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """run.py BUILD [--limit SECONDS] [--only PROGRAM]
 
-Runs the programs suite_<suite>_<name> of a build, case by case, each with a limit of time, and prints a table in
-Markdown. Cases that do not pass are compared with deviations.txt beside this script:
+Runs the programs suite_<suite>_<name> of a build, case by case, each with a limit of processor time, which other work
+on the machine does not use up, and prints a table in Markdown. Cases that do not pass are compared with deviations.txt beside this script:
 
     PROGRAM CASE KIND: REASON
 
@@ -15,9 +15,10 @@ import argparse
 import collections
 import pathlib
 import re
+import resource
+import signal
 import subprocess
 import sys
-import time
 
 # How a case of each kind may end.
 ENDS = {'missing': ('missing', 'failed'), 'differs': ('failed',), 'slow': ('slow',)}
@@ -46,11 +47,14 @@ def cases_of(program):
 
 
 def outcome_of(program, case, limit, folder):
-    """passed, missing, failed, crashed or slow, and what it said."""
+    """passed, missing, failed, crashed, slow or stuck, and what it said."""
     try:
         run = subprocess.run([program, f'--gtest_filter={case}', '--gtest_color=no'], capture_output=True, text=True,
-                             errors='replace', timeout=limit, cwd=folder, check=False)
+                             errors='replace', cwd=folder, timeout=100 * limit, check=False,
+                             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5)))
     except subprocess.TimeoutExpired:
+        return 'stuck', 'waits for something'
+    if run.returncode == -signal.SIGXCPU:
         return 'slow', f'not finished after {limit} s'
     if run.returncode == 0:
         return 'passed', ''
@@ -64,11 +68,16 @@ def outcome_of(program, case, limit, folder):
     return 'failed', ' '.join(' '.join(said).split())[:160]
 
 
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def run_program(program, limit, known):
     name = program.name.removeprefix('suite_')
     counts = collections.Counter()
     problems = []
-    begin = time.monotonic()
+    begin = processor_seconds()
     for case in cases_of(program):
         kind, said = outcome_of(program, case, limit, program.parent)
         deviation = known.get((name, case))
@@ -81,13 +90,13 @@ def run_program(program, limit, known):
         else:
             counts['unexplained'] += 1
             problems.append(f'{name} {case}: {kind}: {said}')
-    return name, counts, time.monotonic() - begin, problems
+    return name, counts, processor_seconds() - begin, problems
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('build', type=pathlib.Path)
-    parser.add_argument('--limit', type=float, default=120)
+    parser.add_argument('--limit', type=int, default=60)
     parser.add_argument('--only', default='*')
     options = parser.parse_args()
     programs = sorted((options.build.resolve() / 'bin').glob(f'suite_{options.only}'))
