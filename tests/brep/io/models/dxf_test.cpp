@@ -26,13 +26,14 @@ std::string dxf_file(const std::string& entities, const std::string& blocks = ""
            lines("0 ENDSEC 0 EOF");
 }
 
-const std::string triangle =
+const std::string dxf_triangle =
     "0 3DFACE 8 wall 10 0 20 0 30 0 11 1 21 0 31 0 12 0 22 1.5 32 0 13 0 23 1.5 33 0";
-const std::string square = "0 3DFACE 8 wall 10 0 20 0 11 1 21 0 12 1 22 1 13 0 23 1";
+const std::string dxf_square = "0 3DFACE 8 wall 10 0 20 0 11 1 21 0 12 1 22 1 13 0 23 1";
 
 TEST(Dxf, Faces) {
-    const Model model = model_in(
-        dxf_file(triangle + " 0 LINE 10 3 20 3 " + square, "", "9 $INSUNITS 70 1"), dxf_format);
+    const Model model =
+        model_in(dxf_file(dxf_triangle + " 0 LINE 10 3 20 3 " + dxf_square, "", "9 $INSUNITS 70 1"),
+                 dxf_format);
     EXPECT_EQ(model.unit, "inch");
     ASSERT_EQ(model.parts.size(), 1U);
     EXPECT_EQ(model.parts[0].name, "wall");
@@ -85,7 +86,7 @@ TEST(Dxf, Mesh) {
 }
 
 TEST(Dxf, Blocks) {
-    const std::string block = "0 BLOCK 2 b 10 1 20 0 30 0 " + triangle + " 0 ENDBLK";
+    const std::string block = "0 BLOCK 2 b 10 1 20 0 30 0 " + dxf_triangle + " 0 ENDBLK";
     const Model model =
         model_in(dxf_file("0 INSERT 2 b 10 5 20 0 30 0 42 2 50 90 0 INSERT 2 b 70 3 44 10", block),
                  dxf_format);
@@ -105,8 +106,8 @@ TEST(Dxf, Blocks) {
 }
 
 TEST(Dxf, Refused) {
-    expect_refused<UnsupportedError>(dxf_file("0 3DSOLID 1 acis " + triangle), dxf_format, "test:6",
-                                     "3DSOLID is not read");
+    expect_refused<UnsupportedError>(dxf_file("0 3DSOLID 1 acis " + dxf_triangle), dxf_format,
+                                     "test:6", "3DSOLID is not read");
     expect_refused<UnsupportedError>(dxf_file("0 LINE 10 0 20 0"), dxf_format, "test:1",
                                      "no 3DFACE");
     expect_refused<UnsupportedError>("AutoCAD Binary DXF\r\n", dxf_format, "test", "binary form");
@@ -115,14 +116,14 @@ TEST(Dxf, Refused) {
     expect_refused<InputError>(dxf_file("0 3DFACE 10 0 20 1,5"), dxf_format, "test:10:1",
                                "'1,5' of group 20");
     expect_refused<InputError>(dxf_file("0 3DFACE 10 nan"), dxf_format, "test:8:1", "'nan'");
-    const std::string whole = dxf_file(triangle);
+    const std::string whole = dxf_file(dxf_triangle);
     expect_refused<InputError>(whole.substr(0, whole.size() - 6), dxf_format,
                                "test:", "ends before EOF");
     expect_refused<InputError>(whole + "0\n", dxf_format, "test:", "after EOF");
     EXPECT_EQ(detect_mesh_format("999\nmade by\n  0\nSECTION\n"), dxf_format);
     EXPECT_EQ(detect_mesh_format(whole), dxf_format);
     // Faces on paper are no model.
-    expect_refused<UnsupportedError>(dxf_file(triangle + " 67 1"), dxf_format, "test:1",
+    expect_refused<UnsupportedError>(dxf_file(dxf_triangle + " 67 1"), dxf_format, "test:1",
                                      "no 3DFACE");
 }
 

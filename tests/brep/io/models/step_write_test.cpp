@@ -13,10 +13,10 @@ namespace {
 using namespace trisect;
 using namespace trisect::io_test;
 
-constexpr MeshFormat step_format = MeshFormat::Step;
+constexpr MeshFormat written_format = MeshFormat::Step;
 
 std::string step_of(const Model& model) {
-    return format_model(model, {.format = step_format}).bytes;
+    return format_model(model, {.format = written_format}).bytes;
 }
 
 std::size_t count_of(const std::string& text, const std::string& word) {
@@ -68,12 +68,12 @@ TEST(StepWrite, Box) {
     EXPECT_EQ(count_of(text, "EDGE_CURVE("), 12U);
     EXPECT_EQ(count_of(text, "VERTEX_POINT("), 8U);
     EXPECT_EQ(count_of(text, "MANIFOLD_SOLID_BREP("), 1U);
-    const Model back = model_in(text, step_format);
+    const Model back = model_in(text, written_format);
     EXPECT_EQ(back.unit, "inch");
     ASSERT_EQ(back.parts.size(), 1U);
     EXPECT_EQ(back.parts[0].name, model.parts[0].name);
     EXPECT_EQ(back.parts[0].mesh.face_count(), 6U);
-    EXPECT_EQ(step_of(model_in(step_of(back), step_format)), step_of(back));
+    EXPECT_EQ(step_of(model_in(step_of(back), written_format)), step_of(back));
     EXPECT_EQ(text, step_of(model));
 }
 
@@ -90,7 +90,7 @@ TEST(StepWrite, EveryCoordinateComesBack) {
         } catch (const UnsupportedError&) {
             continue;  // no area left
         }
-        const PolygonMesh back = model_in(text, step_format).parts.at(0).mesh;
+        const PolygonMesh back = model_in(text, written_format).parts.at(0).mesh;
         for (const Point3d& p : mesh.points)
             EXPECT_NE(std::find(back.points.begin(), back.points.end(), p), back.points.end());
     }
@@ -102,7 +102,7 @@ TEST(StepWrite, Holes) {
     EXPECT_EQ(count_of(text, "FACE_BOUND("), 2U);
     EXPECT_EQ(count_of(text, "FACE_OUTER_BOUND("), 10U);
     EXPECT_EQ(count_of(text, "EDGE_CURVE("), 24U);
-    const Model back = model_in(text, step_format);
+    const Model back = model_in(text, written_format);
     EXPECT_EQ(back.parts[0].mesh.face_count(), 10U);
     EXPECT_EQ(count_of(step_of(back), "FACE_BOUND("), 2U);
 }
@@ -118,11 +118,11 @@ TEST(StepWrite, Voids) {
     EXPECT_EQ(count_of(text, "BREP_WITH_VOIDS("), 2U);
     EXPECT_EQ(count_of(text, "MANIFOLD_SOLID_BREP("), 1U);
     EXPECT_EQ(count_of(text, "ORIENTED_CLOSED_SHELL("), 3U);
-    const Model back = model_in(text, step_format);
+    const Model back = model_in(text, written_format);
     ASSERT_EQ(back.parts.size(), 3U);
     EXPECT_EQ(back.parts[0].mesh.face_count(), 12U);
     EXPECT_EQ(back.parts[1].mesh.face_count(), 18U);
-    EXPECT_EQ(step_of(model_in(step_of(back), step_format)), step_of(back));
+    EXPECT_EQ(step_of(model_in(step_of(back), written_format)), step_of(back));
 }
 
 TEST(StepWrite, OpenMeshesAndSoups) {
