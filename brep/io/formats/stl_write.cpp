@@ -38,7 +38,7 @@ std::array<float, 3> unit_normal(const Point3d& a, const Point3d& b, const Point
             static_cast<float>(n[2] / length)};
 }
 
-std::array<float, 3> face_normal(const PolygonMesh& mesh, std::size_t f) noexcept {
+std::array<float, 3> stl_normal(const PolygonMesh& mesh, std::size_t f) noexcept {
     const auto loop = mesh.face(f);
     return unit_normal(mesh.points[loop[0]], mesh.points[loop[1]], mesh.points[loop[2]]);
 }
@@ -51,7 +51,7 @@ void write_stl_ascii(std::string& out, const PolygonMesh& mesh) {
     text << "solid trisect\n";
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         text << "facet normal";
-        for (const float c : face_normal(mesh, f)) text << ' ' << c;
+        for (const float c : stl_normal(mesh, f)) text << ' ' << c;
         text << "\n  outer loop\n";
         for (const std::uint32_t corner : mesh.face(f))
             text << "    vertex " << mesh.points[corner] << '\n';
@@ -74,7 +74,7 @@ WriteReport write_stl_binary(std::string& out, const PolygonMesh& mesh, const st
     out.resize(stl_header_size + mesh.face_count() * stl_record_size);
     char* to = out.data() + stl_header_size;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        for (const float c : face_normal(mesh, f)) put<false>(to, c);
+        for (const float c : stl_normal(mesh, f)) put<false>(to, c);
         for (const std::uint32_t corner : mesh.face(f))
             for (const float c : points[corner]) put<false>(to, c);
         put<false>(to, std::uint16_t{0});
