@@ -20,6 +20,8 @@ struct CsgOptions {
     /// Where relative names of import() and surface() start; nothing: that of CsgTree::file.
     std::optional<std::filesystem::path> folder = std::nullopt;
     bool reads_files = true;  ///< otherwise import() and surface() are refused
+    /// A file that is not there is an empty set, with a remark, as in OpenSCAD; otherwise an error.
+    bool missing_files_are_empty = false;
 };
 
 struct CsgReport {

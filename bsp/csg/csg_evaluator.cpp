@@ -7,6 +7,7 @@
 #include <trisect/bsp/csg/csg_evaluator.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include <trisect/brep/primitives/hull.h>
@@ -186,6 +187,11 @@ std::filesystem::path CsgEvaluator::file_named(std::uint32_t n) {
     if (!options_.reads_files) in.fail(ErrorCode::Unsupported, "files are not read");
     const std::filesystem::path file = csg_file(in, options_.folder.value_or(program_.folder()));
     if (!file.empty()) kept_.note_file(file);
+    std::error_code none;
+    if (options_.missing_files_are_empty && !file.empty() && !std::filesystem::exists(file, none)) {
+        remark(n, "there is no file " + file.string());
+        return {};
+    }
     return file;
 }
 

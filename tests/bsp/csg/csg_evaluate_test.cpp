@@ -218,6 +218,16 @@ TEST_F(CsgFiles, DrawingsAreRegions) {
     EXPECT_EQ(volume_of("import(file = \"" + file + "\", layer = \"a\");"), "0");
 }
 
+TEST_F(CsgFiles, MissingFilesAreErrorsUnlessTheyMayBeEmpty) {
+    const CsgTree tree = parse_csg("cube(size = 1); import(file = \"no.stl\");", "f");
+    EXPECT_THROW((void)evaluate_csg(tree), CsgError);
+    CsgOptions options;
+    options.missing_files_are_empty = true;
+    CsgReport report;
+    EXPECT_EQ(exact_volume(evaluate_csg(tree, options, &report)).to_string(), "1");
+    EXPECT_FALSE(report.remarks.empty());
+}
+
 TEST_F(CsgFiles, TheGroundOfHeightsIsAtZeroOrBelow) {
     const std::string high = write("trisect_high.dat", "5 5\n5 5\n");
     EXPECT_EQ(volume_of("surface(file = \"" + high + "\");"), "5");
