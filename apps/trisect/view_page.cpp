@@ -48,7 +48,7 @@ R from the front, Escape forget.</details>
 
 constexpr const char* before_data = "</script>\n<script id=\"data\" type=\"text/plain\">";
 constexpr const char* before_program = "</script>\n<script>";
-constexpr const char* end = "</script>\n</body>\n</html>\n";
+constexpr const char* page_end = "</script>\n</body>\n</html>\n";
 
 /// Three corners that are lattice points and not on a line: their doubles give the plane.
 bool has_exact_corners(const Brep& brep, FaceId f) {
@@ -151,7 +151,7 @@ std::string page_text(const ViewedSolid& solid) {
     facts["inputs"] = solid.inputs.size();
     facts["places"] = data.places();
     return page_start + std::string(page_style) + view_body + script_text(facts) + before_data +
-           data.in_base64() + before_program + viewer_program() + end;
+           data.in_base64() + before_program + viewer_program() + page_end;
 }
 
 }  // namespace trisect::app
