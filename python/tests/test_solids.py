@@ -288,7 +288,7 @@ def test_repr(cube):
 
 def test_files(tmp_path, two_boxes):
     part = two_boxes[0] - two_boxes[1]
-    for name in ("part.obj", "part.stl", "part.off", "part.ply"):
+    for name in ("part.obj", "part.stl", "part.off", "part.ply", "part.step"):
         part.write(tmp_path / name)
         assert Solid.read(tmp_path / name).equals(part)
     vertices, faces = trisect.read_mesh(str(tmp_path / "part.off"))
@@ -301,7 +301,7 @@ def test_files(tmp_path, two_boxes):
     with pytest.raises(trisect.InputError, match="missing.stl"):
         Solid.read(tmp_path / "missing.stl")
     with pytest.raises(trisect.UsageError, match="format"):
-        part.write(tmp_path / "part.step", format="step")
+        part.write(tmp_path / "part.igs", format="igs")
 
 
 def test_hulls():
