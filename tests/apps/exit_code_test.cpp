@@ -80,7 +80,7 @@ TEST_F(ExitCode, UsageIsTwo) {
         {"info", cube_, "--max-seconds", "-1"},
         {"info", cube_, "--max-seconds", "nan"},
         {"info", cube_, "--max-work", "0"},
-        {"info", cube_, "--format", "step"},
+        {"info", cube_, "--format", "igs"},
         {"info", cube_, "--progress", "dots"},
         {"check", cube_, "--places", "-1"},
         {"convert", cube_, "-o", out_, "--translate", "1,2"},

@@ -65,11 +65,13 @@ TEST(Files, FormatByContent) {
 }
 
 TEST(Files, FormatNames) {
-    for (const MeshFormat f : {MeshFormat::Obj, MeshFormat::Stl, MeshFormat::StlAscii,
-                               MeshFormat::StlBinary, MeshFormat::Off, MeshFormat::Ply}) {
+    for (const MeshFormat f :
+         {MeshFormat::Obj, MeshFormat::Stl, MeshFormat::StlAscii, MeshFormat::StlBinary,
+          MeshFormat::Off, MeshFormat::Ply, MeshFormat::ThreeMf, MeshFormat::Glb, MeshFormat::Amf,
+          MeshFormat::Step, MeshFormat::Dxf}) {
         EXPECT_EQ(mesh_format_from_name(to_string(f)), f);
     }
-    EXPECT_EQ(mesh_format_from_name("step"), std::nullopt);
+    EXPECT_EQ(mesh_format_from_name("igs"), std::nullopt);
     EXPECT_EQ(mesh_format_from_name("PLY"), MeshFormat::Ply);
 }
 
