@@ -21,7 +21,6 @@ namespace trisect::detail {
 namespace {
 
 using RationalVector = std::array<ExactRational, 3>;
-using ExactCorners = std::array<RationalVector, 3>;
 
 bool in_unit(const ExactRational& v) { return v.sign() >= 0 && v <= ExactRational(1); }
 
@@ -94,14 +93,14 @@ std::optional<OfPoint> point_and_inside(const RationalVector& x, const ExactCorn
     return OfPoint{height * height / nn, *feature};
 }
 
-ExactCorners corners(const PlacedTriangle& t) {
+}  // namespace
+
+ExactCorners exact_corners(const PlacedTriangle& t) {
     ExactCorners r;
     for (std::size_t i = 0; i < 3; ++i)
         r[i] = in_world(exact_place(*t.triangle.corner[i]), t.lattice, t.pose);
     return r;
 }
-
-}  // namespace
 
 ExactClosest exact_closest(const InterferenceModelData& a, const Pose& pose_a,
                            std::uint32_t triangle_a, const InterferenceModelData& b,
@@ -113,8 +112,8 @@ ExactClosest exact_closest(const InterferenceModelData& a, const Pose& pose_a,
 }
 
 ExactClosest exact_closest_apart(const PlacedTriangle& a, const PlacedTriangle& b) {
-    const ExactCorners p = corners(a);
-    const ExactCorners q = corners(b);
+    const ExactCorners p = exact_corners(a);
+    const ExactCorners q = exact_corners(b);
     Least least;
     for (std::size_t i = 0; i < 3; ++i) {
         const Feature corner = Feature::corner(i);

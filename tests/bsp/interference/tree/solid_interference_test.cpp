@@ -6,7 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+
+#include <trisect/brep/primitives/cylinder.h>
+#include <trisect/bsp/solid.h>
 
 #include "support/solid_interference_oracle.h"
 
@@ -51,6 +55,18 @@ TEST(SolidInterference, CentresOfHullsSayNothing) {
     EXPECT_EQ(
         brute::difference_along_cuts(scene, static_cast<std::uint32_t>(1 + seed % 7), random, 3),
         "");
+}
+
+// Tens of thousands of pairs of triangles are equally near. Each exactly would take minutes.
+TEST(SolidInterference, PairsOfParallelFacesAreComparedAlongTheirNormal) {
+    const trisect::Solid disc =
+        trisect::Solid::from_mesh(trisect::make_cylinder(1, 1, 240), trisect::SolidOptions{});
+    const auto above = [](double z) { return trisect::Pose::from_translation({0.25, 0.125, z}); };
+    EXPECT_EQ(exact_squared_distance(disc, trisect::Pose(), disc, above(4)),
+              trisect::ExactRational(9));
+    EXPECT_FALSE(are_nearer_than(disc, trisect::Pose(), disc, above(4), 3));
+    EXPECT_TRUE(are_nearer_than(disc, trisect::Pose(), disc, above(4), std::nextafter(3, 4)));
+    EXPECT_TRUE(are_nearer_than(disc, trisect::Pose(), disc, above(std::nextafter(4, 3)), 3));
 }
 
 }  // namespace
