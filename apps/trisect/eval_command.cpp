@@ -83,6 +83,8 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
     command->add_flag("--watch", options.watch,
                       "evaluate again whenever the program or a file that it reads changes, until "
                       "interrupted; only what changed is evaluated");
+    command->add_flag("--missing-files-empty", options.missing_files_are_empty,
+                      "a file that is not there is an empty set, with a remark, not an error");
     command->add_flag("--summary", options.summary,
                       "also numbers of nodes and shapes, volume and time");
 }
@@ -147,6 +149,7 @@ std::string said_of(const Session& session, const Json& before, const ChangeRepo
 Outcome watch(Session& session, const EvalOptions& options) {
     CsgOptions how;
     how.evaluate = session.evaluation_options(OperandOptions());
+    how.missing_files_are_empty = options.missing_files_are_empty;
     CsgSession kept(how);
     Outcome last;
     try {
@@ -192,6 +195,7 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
     const Solid solid = session.interruptible_stage("evaluate", [&] {
         CsgOptions how;
         how.evaluate = session.evaluation_options(OperandOptions());
+        how.missing_files_are_empty = options.missing_files_are_empty;
         return evaluate_csg(tree, how, &report);
     });
     say_remarks(session, report);

@@ -215,6 +215,7 @@ struct EvalOptions {
     std::string output;
     bool summary = false;
     bool watch = false;
+    bool missing_files_are_empty = false;
 };
 
 struct TessellateOptions {

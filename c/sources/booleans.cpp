@@ -26,6 +26,15 @@ Solid evaluated(const Expression& formula) {
     return evaluate(formula, options);
 }
 
+Expression boolean_of(trisect_operation operation, const trisect_solid* const* operands,
+                      size_t count) {
+    std::vector<Solid> solids;
+    for (const trisect_solid* operand : c::array_of(operands, count, "operands"))
+        solids.push_back(required(operand, "an operand").solid);
+    if (solids.empty()) throw UsageError("operands: there is none");
+    return expression_of(c::operation_of(operation), solids);
+}
+
 // Two handles, or none.
 void write_both(trisect_solid** first, trisect_solid** second, Solid a, Solid b) {
     auto made = std::make_unique<trisect_solid>(trisect_solid{std::move(a)});
@@ -51,14 +60,31 @@ trisect_status split(const trisect_solid* solid, trisect_solid** first, trisect_
 
 trisect_status trisect_boolean(trisect_operation operation, const trisect_solid* const* operands,
                                size_t count, trisect_solid** result) {
-    return make_handle(result, "result", [&] {
-        std::vector<Solid> solids;
-        for (const trisect_solid* operand : c::array_of(operands, count, "operands"))
-            solids.push_back(required(operand, "an operand").solid);
-        if (solids.empty()) throw UsageError("operands: there is none");
-        return evaluated(expression_of(c::operation_of(operation), solids));
+    return make_handle(result, "result",
+                       [&] { return evaluated(boolean_of(operation, operands, count)); });
+}
+
+trisect_status trisect_edited_new(trisect_edited** edited) {
+    return make_handle(edited, "edited", [] {
+        EvaluateOptions options;
+        options.threads = c::limits_of_thread().threads;
+        return EditedFormula(options);
     });
 }
+
+trisect_status trisect_edited_boolean(trisect_edited* edited, trisect_operation operation,
+                                      const trisect_solid* const* operands, size_t count,
+                                      int* evaluated_all, trisect_solid** result) {
+    return make_handle(result, "result", [&] {
+        ChangeReport change;
+        Solid solid = required(edited, "edited")
+                          .formula.evaluate(boolean_of(operation, operands, count), &change);
+        if (evaluated_all != nullptr) *evaluated_all = change.evaluated_all ? 1 : 0;
+        return solid;
+    });
+}
+
+void trisect_edited_free(trisect_edited* edited) { delete edited; }
 
 trisect_status trisect_complement(const trisect_solid* solid, trisect_solid** result) {
     return make_handle(result, "result",

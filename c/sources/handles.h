@@ -14,6 +14,7 @@
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/edited_formula.h>
 #include <trisect/bsp/interference/interference_scene.h>
 #include <trisect/bsp/interference/motion.h>
 #include <trisect/bsp/solid.h>
@@ -27,6 +28,9 @@ struct trisect_text {
 };
 struct trisect_solid {
     trisect::Solid solid;
+};
+struct trisect_edited {
+    trisect::EditedFormula formula;
 };
 struct trisect_solid_list {
     std::vector<trisect::Solid> solids;

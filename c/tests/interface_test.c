@@ -132,6 +132,35 @@ static void test_booleans(void) {
     trisect_solid_free(a);
 }
 
+static void test_edited_booleans(void) {
+    trisect_solid* solids[3];
+    solids[0] = box(0, 0, 0, 9, 9, 1);
+    solids[1] = box(1, 1, -1, 2, 2, 2);
+    solids[2] = box(5, 5, -1, 7, 6, 2);
+    const trisect_solid* operands[2] = {solids[0], solids[1]};
+    trisect_edited* edited = NULL;
+    trisect_solid* result = NULL;
+    int evaluated_all = 0;
+    EXPECT_OK(trisect_edited_new(&edited));
+    EXPECT_OK(
+        trisect_edited_boolean(edited, TRISECT_DIFFERENCE, operands, 2, &evaluated_all, &result));
+    EXPECT(evaluated_all == 1);
+    EXPECT(volume_of(result) == 80);
+    trisect_solid_free(result);
+    operands[1] = solids[2];
+    EXPECT_OK(
+        trisect_edited_boolean(edited, TRISECT_DIFFERENCE, operands, 2, &evaluated_all, &result));
+    EXPECT(evaluated_all == 0);
+    EXPECT(volume_of(result) == 79);
+    trisect_solid_free(result);
+    operands[1] = NULL;
+    EXPECT(trisect_edited_boolean(edited, TRISECT_DIFFERENCE, operands, 2, NULL, &result) ==
+           TRISECT_USAGE);
+    EXPECT(result == NULL);
+    trisect_edited_free(edited);
+    for (int i = 0; i < 3; ++i) trisect_solid_free(solids[i]);
+}
+
 static void test_parts(void) {
     trisect_solid* a = box(0, 0, 0, 4, 1, 1);
     trisect_solid* cutter = box(1, -1, -1, 2, 2, 2);
@@ -426,6 +455,7 @@ int main(void) {
     test_solids_of_arrays();
     test_refused_arrays();
     test_booleans();
+    test_edited_booleans();
     test_parts();
     test_meshes_and_measures();
     test_exact_text();

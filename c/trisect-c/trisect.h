@@ -177,6 +177,18 @@ typedef enum trisect_operation {
 TRISECT_C_API trisect_status trisect_boolean(trisect_operation operation,
                                              const trisect_solid* const* operands, size_t count,
                                              trisect_solid** result);
+/* Keeps the last operands and their result, and evaluates the next ones only near those that
+ * changed. Copies of one solid are the same operand. The result is that of trisect_boolean().
+ * `evaluated_all` may be NULL; it is 1 where all was evaluated, as the first time. Threads are
+ * those of the limits when it is made. Not for several threads at once. */
+typedef struct trisect_edited trisect_edited;
+TRISECT_C_API trisect_status trisect_edited_new(trisect_edited** edited);
+TRISECT_C_API trisect_status trisect_edited_boolean(trisect_edited* edited,
+                                                    trisect_operation operation,
+                                                    const trisect_solid* const* operands,
+                                                    size_t count, int* evaluated_all,
+                                                    trisect_solid** result);
+TRISECT_C_API void trisect_edited_free(trisect_edited* edited);
 TRISECT_C_API trisect_status trisect_complement(const trisect_solid* solid, trisect_solid** result);
 /* The parts below and above a plane, or inside and outside of another solid. */
 TRISECT_C_API trisect_status trisect_split_by_plane(const trisect_solid* solid,

@@ -15,6 +15,7 @@ void bind_check(py::module_& m);
 void bind_pose(py::module_& m);
 void bind_solid_type(py::module_& m);
 void bind_formula(py::module_& m);
+void bind_edited(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_transforms(py::module_& m);
 void bind_primitives(py::module_& m);

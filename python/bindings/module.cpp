@@ -16,6 +16,7 @@ PYBIND11_MODULE(_trisect, m) {
     bind_pose(m);
     bind_solid_type(m);
     bind_formula(m);
+    bind_edited(m);
     bind_measures(m);
     bind_transforms(m);
     bind_primitives(m);

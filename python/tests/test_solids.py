@@ -323,3 +323,22 @@ def test_hulls():
         Solid.hull([(0, 0, 0), (np.nan, 0, 0), (0, 1, 0), (1, 1, 1)])
     with pytest.raises(trisect.UsageError, match="points: must have the shape"):
         Solid.hull([(0, 0), (1, 1)])
+
+
+def test_edited_formula_evaluates_near_what_changed():
+    plate = Solid.box((0, 0, 0), (40, 40, 2))
+    holes = [
+        Solid.cylinder(1, 4, segments=12).translate((5 + 6 * i, 5, -1)) for i in range(5)
+    ]
+    edited = trisect.EditedFormula()
+    first = edited.evaluate(plate - Formula(holes[0]) - holes[1] - holes[2])
+    assert edited.evaluated_all and edited.box is None
+    second = edited.evaluate(plate - Formula(holes[0]) - holes[3] - holes[2])
+    assert second.equals(plate - holes[0] - holes[3] - holes[2])
+    assert first.equals(plate - holes[0] - holes[1] - holes[2])
+    assert not edited.evaluated_all
+    assert edited.changed_operands == 2
+    low, high = edited.box
+    assert low[0] <= 10 and high[0] >= 24 and high[0] < 30
+    with pytest.raises(TypeError, match="evaluate: must be a Solid or a Formula, not int"):
+        edited.evaluate(3)
