@@ -98,13 +98,14 @@ endif()
 # Headers of the public rooms (tests/layering/rooms.txt) without subfolders, but for those that only
 # sources of the library include. The comparison library and its headers stay in the build tree.
 set(private_headers
+    brep/embedding_findings.h
     brep/curved/control_net.h
     brep/primitives/cap.h
     brep/primitives/circle.h
     brep/validate/checked_mesh.h
     brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
-    brep/validate/region_outline.h
+    brep/validate/fans.h
     brep/validate/sheet_grid.h
     brep/validate/sheets.h
     brep/validate/shell_nesting.h
@@ -112,7 +113,9 @@ set(private_headers
     brep/validate/triangle_tree.h
     brep/validate/twins.h
     bsp/manifold.h
+    bsp/solid_of_findings.h
     bsp/csg/csg_arguments.h
+    bsp/csg/csg_drawing.h
     bsp/csg/csg_evaluator.h
     bsp/csg/csg_extrude.h
     bsp/csg/csg_frame.h

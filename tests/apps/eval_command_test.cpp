@@ -35,12 +35,12 @@ TEST_F(EvalCommand, StreamsAndSummary) {
 }
 
 TEST_F(EvalCommand, ErrorsHavePlaces) {
-    const std::string bad = write("bad.csg", "group() {\n  text(text = \"a\");\n}\n");
+    const std::string bad = write("bad.csg", "group() {\n  roof();\n}\n");
     const Finished run = trisect({"eval", bad, "-o", path("x.stl"), "--json"});
     EXPECT_EQ(run.code, 7);
     EXPECT_EQ(run.json()["error"]["line"], 2);
     EXPECT_EQ(run.json()["error"]["column"], 3);
-    EXPECT_NE(run.err.find("text"), std::string::npos);
+    EXPECT_NE(run.err.find("roof"), std::string::npos);
     EXPECT_EQ(trisect({"eval", write("c.csg", "cube("), "-o", path("x.stl")}).code, 3);
     EXPECT_FALSE(exists("x.stl"));
 }

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include <trisect/bsp/cells/trace/trace.h>
 #include <trisect/bsp/cells/work_budget.h>
@@ -34,12 +33,6 @@ struct SideRange {
     /// Touches the plane in one corner.
     [[nodiscard]] bool rests_on_a_corner() const { return !straddles() && zeros == 1; }
 };
-
-// Whether the facet that a polygon is a part of meets no others of its mesh.
-bool is_plain(const PolygonRef& ref) {
-    const std::span<const FacetKind> kinds = ref.source->kinds();
-    return !kinds.empty() && kinds[ref.facet] != FacetKind::Meets;
-}
 
 // Compares two items of a leaf.
 class Relation {
@@ -219,9 +212,7 @@ void LeafPairs::list_candidates(const LeafWork& work) {
         bool candidate = !compare || !embedded;
         for (std::size_t o = 0; o < n && !candidate; ++o)
             candidate = o != as_index(item.operand) && operand_boxes_[o].overlaps(item.box);
-        if (candidate)
-            candidates_.push_back(
-                {{}, {}, i, item.operand, embedded, is_plain(item.ref), item.ref.source});
+        if (candidate) candidates_.push_back({{}, {}, i, item.operand, embedded});
     }
 }
 
@@ -324,7 +315,7 @@ void LeafPairs::sweep(LeafWork& work) {
         for (std::size_t j = i + 1; j < candidates_.size(); ++j) {
             const Candidate& b = candidates_[j];
             if (b.lo[0] > a.hi[0]) break;
-            if (skip_each_other(a, b)) continue;
+            if (a.skips_own && a.operand == b.operand) continue;
             if (a.lo[1] > b.hi[1] || b.lo[1] > a.hi[1] || a.lo[2] > b.hi[2] || b.lo[2] > a.hi[2])
                 continue;
             ++work.stats->pairs_boxes;

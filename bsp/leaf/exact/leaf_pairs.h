@@ -12,9 +12,8 @@
 
 namespace trisect::detail {
 
-/// Compares the polygons whose boxes meet, but for those of one embedded operand, and facets of a
-/// mesh that meet no others of it by their kind. Finds their contacts, fills in `cut` and
-/// `overlapped`, and declares planes the same that are.
+/// Compares the polygons whose boxes meet and that are not of one embedded operand. Finds their
+/// contacts, fills in `cut` and `overlapped`, and declares planes the same that are.
 ///
 /// Candidates come from a sweep along the axis on which the boxes are shortest; then the supports
 /// separate most of them exactly, with signs that the filter decides. Scratch memory that is kept
@@ -31,8 +30,6 @@ private:
         LeafIndex item;
         LeafIndex operand;
         bool skips_own;  // of an embedded operand
-        bool is_plain;   // meets no others of its source
-        const Source* source;
     };
     /// A whole facet in doubles, which hold lattice points exactly; beside each candidate.
     struct Facet {
@@ -44,11 +41,6 @@ private:
         double bound = -1;  // of the error of a side; -1: the plane is not made yet
     };
     void list_candidates(const LeafWork& work);
-    [[nodiscard]] static bool skip_each_other(const Candidate& a, const Candidate& b) {
-        if (a.operand != b.operand) return false;
-        if (a.skips_own) return true;
-        return a.source == b.source && (a.is_plain || b.is_plain);
-    }
     [[nodiscard]] int best_axis(const LeafWork& work) const;
     void sort_along(const LeafWork& work, int axis);
     void sweep(LeafWork& work);

@@ -241,6 +241,17 @@ TEST(CsgEvaluate, EqualShapesAreMadeOnce) {
     EXPECT_EQ(report.meshes, 1U);
 }
 
+// Facets of one mesh that is inside out, beside a mesh without volume.
+TEST(CsgEvaluate, AFlatPolyhedronAddsNothing) {
+    const std::string faces = "faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);";
+    const std::string solid =
+        "polyhedron(points = [[45, -2, 0.5], [-2, 3, -2], [5, -2, 3], [4, -2, 90], [2, 7, 5]], " +
+        faces;
+    const std::string flat =
+        "polyhedron(points = [[90, 2, 45], [90, 1, 1], [1, 1, 1], [1, 1, 1]], " + faces;
+    EXPECT_EQ(volume_of("union() {" + solid + flat + "}"), volume_of(solid));
+}
+
 int code_of(const std::string& text) {
     try {
         (void)volume_of(text);
