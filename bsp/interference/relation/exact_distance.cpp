@@ -49,7 +49,7 @@ struct OfPoint {
 };
 
 // Of a point and side i of a triangle.
-std::optional<OfPoint> point_and_side(const RationalVector& x, const ExactCorners& c,
+std::optional<OfPoint> point_and_side(const RationalVector& x, const WorldCorners& c,
                                       std::size_t i) {
     const RationalVector d = minus(c[(i + 1) % 3], c[i]);
     const RationalVector w = minus(x, c[i]);
@@ -59,7 +59,7 @@ std::optional<OfPoint> point_and_side(const RationalVector& x, const ExactCorner
 }
 
 // Of the lines of two sides, where that is between their ends.
-void sides(const ExactCorners& p, std::size_t i, const ExactCorners& q, std::size_t j,
+void sides(const WorldCorners& p, std::size_t i, const WorldCorners& q, std::size_t j,
            Least& least) {
     const RationalVector u = minus(p[(i + 1) % 3], p[i]);
     const RationalVector v = minus(q[(j + 1) % 3], q[j]);
@@ -77,7 +77,7 @@ void sides(const ExactCorners& p, std::size_t i, const ExactCorners& q, std::siz
     least.note(height * height / dot(n, n), on_side(i, s), on_side(j, t));
 }
 
-std::optional<OfPoint> point_and_inside(const RationalVector& x, const ExactCorners& t) {
+std::optional<OfPoint> point_and_inside(const RationalVector& x, const WorldCorners& t) {
     const RationalVector u = minus(t[1], t[0]);
     const RationalVector v = minus(t[2], t[0]);
     const RationalVector w = minus(x, t[0]);
@@ -95,8 +95,8 @@ std::optional<OfPoint> point_and_inside(const RationalVector& x, const ExactCorn
 
 }  // namespace
 
-ExactCorners exact_corners(const PlacedTriangle& t) {
-    ExactCorners r;
+WorldCorners world_corners(const PlacedTriangle& t) {
+    WorldCorners r;
     for (std::size_t i = 0; i < 3; ++i)
         r[i] = in_world(exact_place(*t.triangle.corner[i]), t.lattice, t.pose);
     return r;
@@ -112,8 +112,8 @@ ExactClosest exact_closest(const InterferenceModelData& a, const Pose& pose_a,
 }
 
 ExactClosest exact_closest_apart(const PlacedTriangle& a, const PlacedTriangle& b) {
-    const ExactCorners p = exact_corners(a);
-    const ExactCorners q = exact_corners(b);
+    const WorldCorners p = world_corners(a);
+    const WorldCorners q = world_corners(b);
     Least least;
     for (std::size_t i = 0; i < 3; ++i) {
         const Feature corner = Feature::corner(i);

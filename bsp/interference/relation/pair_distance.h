@@ -80,9 +80,9 @@ struct PlacedTriangle {
     Lattice lattice;
     const Pose& pose;
 };
-using ExactCorners = std::array<std::array<ExactRational, 3>, 3>;
+using WorldCorners = std::array<std::array<ExactRational, 3>, 3>;
 /// Its corners in the world.
-[[nodiscard]] ExactCorners exact_corners(const PlacedTriangle& triangle);
+[[nodiscard]] WorldCorners world_corners(const PlacedTriangle& triangle);
 
 /// The same of triangles that have no common point.
 [[nodiscard]] ExactClosest exact_closest_apart(const PlacedTriangle& a, const PlacedTriangle& b);

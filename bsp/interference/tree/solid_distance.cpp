@@ -26,9 +26,9 @@ using detail::DistanceSearch;
 using detail::in_world;
 using detail::SolidBoundary;
 
-using detail::ExactCorners;
 using detail::ExactTriangles;
-using RationalVector = ExactCorners::value_type;
+using detail::WorldCorners;
+using RationalVector = WorldCorners::value_type;
 
 // The exact triangles of one solid, with their corners in the world.
 class WorldTriangles {
@@ -42,17 +42,17 @@ public:
     [[nodiscard]] detail::PlacedTriangle placed(std::uint32_t number) const {
         return {exact_[number].posed(), boundary_.lattice, pose_};
     }
-    [[nodiscard]] const ExactCorners& corners(std::uint32_t number) {
+    [[nodiscard]] const WorldCorners& corners(std::uint32_t number) {
         const auto found = corners_.find(number);
         if (found != corners_.end()) return found->second;
-        return corners_.emplace(number, exact_corners(placed(number))).first->second;
+        return corners_.emplace(number, world_corners(placed(number))).first->second;
     }
 
 private:
     const SolidBoundary& boundary_;
     const Pose& pose_;
     ExactTriangles exact_;
-    std::unordered_map<std::uint32_t, ExactCorners> corners_;
+    std::unordered_map<std::uint32_t, WorldCorners> corners_;
 };
 
 // Extents of triangles along one direction. Where many pairs are equally near, as of parallel
@@ -64,8 +64,8 @@ public:
 
     [[nodiscard]] bool is_usable() const { return square_.sign() > 0; }
     // Whether the square of their distance is certainly `least` or more.
-    [[nodiscard]] bool are_as_far(std::uint32_t p, const ExactCorners& at_p, std::uint32_t q,
-                                  const ExactCorners& at_q, const ExactRational& least) {
+    [[nodiscard]] bool are_as_far(std::uint32_t p, const WorldCorners& at_p, std::uint32_t q,
+                                  const WorldCorners& at_q, const ExactRational& least) {
         const Extent& a = extent(of_a_, p, at_p);
         const Extent& b = extent(of_b_, q, at_q);
         const ExactRational gap = std::max(b.lo - a.hi, a.lo - b.hi);
@@ -78,7 +78,7 @@ private:
         ExactRational hi;
     };
     using Extents = std::unordered_map<std::uint32_t, Extent>;
-    const Extent& extent(Extents& known, std::uint32_t number, const ExactCorners& corners) const {
+    const Extent& extent(Extents& known, std::uint32_t number, const WorldCorners& corners) const {
         const auto found = known.find(number);
         if (found != known.end()) return found->second;
         Extent e{detail::dot(n_, corners[0]), detail::dot(n_, corners[0])};
@@ -132,7 +132,7 @@ private:
             slabs_.clear();
         }
         if (slabs_.size() >= most_slabs) return;
-        for (const ExactCorners* c : {&a_.corners(p), &b_.corners(q)}) {
+        for (const WorldCorners* c : {&a_.corners(p), &b_.corners(q)}) {
             Slab slab(
                 detail::cross(detail::minus((*c)[1], (*c)[0]), detail::minus((*c)[2], (*c)[0])));
             if (slab.is_usable()) slabs_.push_back(std::move(slab));
