@@ -57,7 +57,7 @@ TEST(SolidInterference, CentresOfHullsSayNothing) {
         "");
 }
 
-// Tens of thousands of pairs of triangles are equally near. Each exactly would take minutes.
+// All pairs of triangles that lie above each other are equally near.
 TEST(SolidInterference, PairsOfParallelFacesAreComparedAlongTheirNormal) {
     const trisect::Solid disc =
         trisect::Solid::from_mesh(trisect::make_cylinder(1, 1, 240), trisect::SolidOptions{});
