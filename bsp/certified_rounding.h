@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/certificate.h>
@@ -47,12 +49,12 @@ struct CertifiedRounding {
     std::size_t first_pairs = 0;
 };
 
-/// Plain rounding first. Where the check cannot decide (coordinates that span more bits than the
-/// exact check has) or finds something, coordinates are rounded to multiples of one unit, 2^-38 of
-/// the largest one or finer: on that grid the check is exact, and an import changes nothing. What
-/// still meets is resolved as a boundary that may intersect itself, rounded again, and the vertices
-/// of the faces that met are snapped to a grid that is four times as coarse in each round; all
-/// others stay where they are.
+/// Plain rounding first, then divided_at_contacts(). Where the check cannot decide (coordinates
+/// that span more bits than the exact check has) or finds something, coordinates are rounded to
+/// multiples of one unit, 2^-38 of the largest one or finer: on that grid the check is exact, and
+/// an import changes nothing. What still meets is resolved as a boundary that may intersect itself,
+/// rounded again, and the vertices of the faces that met are snapped to a grid that is four times
+/// as coarse in each round; all others stay where they are.
 ///
 /// There is no proof that this ends (Valque and Lazard, Removing self-intersections in 3D meshes
 /// while preserving floating-point coordinates, SGP 2025, have none for theirs either), so rounds
@@ -60,5 +62,23 @@ struct CertifiedRounding {
 /// each round. \throw what evaluate throws.
 [[nodiscard]] CertifiedRounding certified_rounding(const Brep& brep,
                                                    const RoundingOptions& options = {});
+
+/// A mesh divided where its edges lie in its faces.
+struct DividedContacts {
+    PolygonMesh mesh;
+    std::vector<std::uint32_t> parents;  ///< of each triangle: the one that it is a part of
+    Certificate certificate;             ///< holds
+    double radius = 0;                   ///< as in CertifiedRounding; rounding included
+};
+
+/// Where an edge of the exact solid lies inside a face of it (a roof that stands on its ridge), the
+/// triangles of the face run across the edge. Here they are divided, and share it: no vertex is
+/// moved, and the new corners are vertices, or lie where edges cross, within 4 `max_move`s or the
+/// precision of doubles. Nothing where that does not lead to a certified mesh, or more than 4,096
+/// pairs of faces meet. Costs a validation or two a pass, and some passes.
+/// \pre all faces are triangles, and `certificate` is theirs at this precision.
+[[nodiscard]] std::optional<DividedContacts> divided_at_contacts(
+    const PolygonMesh& mesh, const Certificate& certificate,
+    Precision precision = Precision::Double);
 
 }  // namespace trisect

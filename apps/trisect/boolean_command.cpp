@@ -34,6 +34,7 @@ struct BooleanResult {
     WriteReport written;
     std::optional<Certificate> certificate;
     std::optional<CertifiedRounding> rounding;
+    std::size_t divided = 0;  ///< triangles more, since edges lie in faces
     EvaluateReport report;
     EvaluateCounters counters;
 };
@@ -65,6 +66,16 @@ void note_uneven(Session& session, const BooleanOptions& options, const PolygonM
         options.output, uneven));
 }
 
+/// Triangles that edges lie in, where a certificate found that. Whether there are any.
+bool divide_contacts(PolygonMesh& mesh, std::vector<FaceSource>& sources, MeshFormat format,
+                     BooleanResult& result) {
+    const std::size_t before = mesh.face_count();
+    if (!result.certificate || !divide_output(mesh, sources, *result.certificate, format))
+        return false;
+    result.divided = mesh.face_count() - before;
+    return true;
+}
+
 /// By faces: assembles, certifies or repairs, and writes.
 void deliver_brep(Session& session, const BooleanOptions& options,
                   const std::vector<Operand>& operands, const Solid& solid, MeshFormat format,
@@ -89,7 +100,11 @@ void deliver_brep(Session& session, const BooleanOptions& options,
         result.certificate = result.rounding->certificate;
         mesh = result.rounding->mesh;
     } else if (options.certificate) {
-        session.stage("certify", [&] { result.certificate = certify_output(brep, mesh, format); });
+        session.stage("certify", [&] {
+            result.certificate = certify_output(brep, mesh, format);
+            // Faces of STEP are written as they are.
+            if (format != MeshFormat::Step) divide_contacts(mesh, map.source, format, result);
+        });
     }
     session.stage("write", [&] {
         if (!options.boundary.empty()) session.write_output(options.boundary, exact_text(brep));
@@ -117,22 +132,24 @@ void deliver_mesh(Session& session, const BooleanOptions& options,
         mesh = to_polygon_mesh(exact);
     });
     FormattedMesh formatted;
+    const auto format_mesh = [&] {
+        return holds_models(format)
+                   ? format_output_model(
+                         options.output, format,
+                         operand_model(mesh, exact.source, operands, options.operation))
+                   : format_output_mesh(options.output, format, mesh);
+    };
     session.stage("describe", [&] {
         for_each_in_parallel(3, session.limits(), [&](std::size_t i) {
             if (i == 0 && options.certificate)
                 result.certificate = certify_output(exact, mesh, format);
-            if (i == 1) {
-                formatted = holds_models(format)
-                                ? format_output_model(options.output, format,
-                                                      operand_model(mesh, exact.source, operands,
-                                                                    options.operation))
-                                : format_output_mesh(options.output, format, mesh);
-            }
+            if (i == 1) formatted = format_mesh();
             if (i == 2)
                 result.description = describe(
                     exact, [&] { return solid.to_brep(); }, description_options(session, options));
         });
         result.description.lattice = result.report.lattice;
+        if (divide_contacts(mesh, exact.source, format, result)) formatted = format_mesh();
     });
     session.stage("write",
                   [&] { result.written = write_output_mesh(session, options.output, formatted); });
@@ -170,6 +187,7 @@ Json document_of(const Session& session, const BooleanOptions& options,
     document["output"].update(to_json(result.description));
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
+    document["divided"] = result.divided;
     document["repair"] = result.rounding ? to_json(*result.rounding) : Json();
     document["cells"]["visited"] = result.counters.cells;
     document["cells"]["shared"] = result.counters.shared_cells;
@@ -190,6 +208,9 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
         if (!options.repair && !result.certificate->holds())
             out += fmt::format("{:<13}--repair moves vertices until it is certified\n", "");
     }
+    if (result.divided > 0)
+        out += fmt::format("{:<13}edges lie in faces: these have {} triangles more\n", "divided",
+                           result.divided);
     if (result.rounding) out += fmt::format("{:<13}{}\n", "rounding", to_text(*result.rounding));
     double total = 0;
     for (const auto& seconds : session.seconds()) total += seconds.get<double>();

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "values.h"
@@ -42,6 +44,22 @@ Certificate certify_output(const Brep& brep, PolygonMesh mesh, MeshFormat format
 
 Certificate certify_output(const ExactMesh& exact, PolygonMesh mesh, MeshFormat format) {
     return certify(exact, std::move(mesh), precision_of(format));
+}
+
+bool divide_output(PolygonMesh& mesh, std::vector<FaceSource>& sources, Certificate& certificate,
+                   MeshFormat format) {
+    if (certificate.holds()) return false;
+    std::optional<DividedContacts> divided =
+        divided_at_contacts(mesh, certificate, precision_of(format));
+    if (!divided) return false;
+    mesh = std::move(divided->mesh);
+    certificate = divided->certificate;
+    if (sources.empty()) return true;
+    std::vector<FaceSource> of_parts;
+    of_parts.reserve(divided->parents.size());
+    for (const std::uint32_t parent : divided->parents) of_parts.push_back(sources[parent]);
+    sources = std::move(of_parts);
+    return true;
 }
 
 CertifiedRounding round_output(const Brep& brep, MeshFormat format,

@@ -8,6 +8,7 @@
 #include <trisect/bsp/certified_rounding.h>
 
 #include <string>
+#include <vector>
 
 #include "outcome.h"
 
@@ -19,6 +20,11 @@ namespace trisect::app {
 /// The same. \pre `mesh` is to_polygon_mesh(exact)
 [[nodiscard]] Certificate certify_output(const ExactMesh& exact, PolygonMesh mesh,
                                          MeshFormat format);
+
+/// A certificate that does not hold because edges lie in faces becomes one of divided triangles,
+/// which take the place of the mesh; `sources`, where there are any, stay beside them.
+[[nodiscard]] bool divide_output(PolygonMesh& mesh, std::vector<FaceSource>& sources,
+                                 Certificate& certificate, MeshFormat format);
 
 /// As the format holds them, repaired where that takes it.
 [[nodiscard]] CertifiedRounding round_output(const Brep& brep, MeshFormat format,

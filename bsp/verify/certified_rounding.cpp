@@ -22,7 +22,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -31,8 +30,7 @@
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/solid.h>
-#include <trisect/bsp/verify/contact_insertion.h>
-#include <trisect/kernel/error.h>
+#include <trisect/bsp/verify/contact_division.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/lattice_point.h>
 
@@ -42,8 +40,8 @@ namespace {
 
 using Outcome = CertifiedRounding::Outcome;
 
-// Faces are divided at one place in each pass.
-constexpr std::size_t max_passes = 16;
+// More pairs of faces that meet are no contacts, but a mesh that rounding has ruined.
+constexpr std::size_t most_contacts = 4096;
 
 // Twice the distance of doubles at the largest coordinate; rounding may take that up to the next
 // power of two, which is 2^52 units. Floats are so much farther apart that a finer unit only takes
@@ -66,9 +64,19 @@ double rounded(double value, double unit, Precision precision) {
     return snapped(value, unit);
 }
 
-// Sums of doubles, rounded up.
-double sum_up(double a, double b) {
-    return b == 0 ? a : std::nextafter(a + b, std::numeric_limits<double>::infinity());
+// The coordinates of floats as doubles.
+void to_floats(PolygonMesh& mesh) {
+    for (Point3d& p : mesh.points)
+        for (double& c : p) c = static_cast<double>(static_cast<float>(c));
+}
+
+// How far apart an edge and the face that it lies in may be after rounding: both have moved, and
+// distances are taken in doubles.
+double reach_of(const PolygonMesh& mesh, double max_move) {
+    double largest = 0;
+    for (const Point3d& p : mesh.points)
+        for (const double c : p) largest = std::max(largest, std::abs(c));
+    return 4 * std::max(max_move, largest * 0x1p-52);
 }
 
 class Rounding {
@@ -77,7 +85,7 @@ public:
 
     CertifiedRounding run() {
         result_.mesh = to_polygon_mesh(brep_);
-        if (take(brep_, Outcome::Plain)) return std::move(result_);
+        if (take(brep_, Outcome::Plain) || conform_plain()) return std::move(result_);
         const std::optional<int> exponent = exponent_for(result_.mesh, options_.precision);
         if (!exponent) return std::move(result_);
         lattice_.exponent = *exponent;
@@ -96,9 +104,8 @@ private:
         const bool plain = outcome == Outcome::Plain;
         result_.certificate = certify(exact, result_.mesh, options_.precision);
         if (plain && options_.precision == Precision::Float && result_.certificate.holds())
-            for (Point3d& p : result_.mesh.points)
-                for (double& c : p) c = static_cast<double>(static_cast<float>(c));
-        if (!plain) radius_ = sum_up(radius_, result_.certificate.max_move);
+            to_floats(result_.mesh);
+        if (!plain) radius_ = detail::sum_up(radius_, result_.certificate.max_move);
         const bool holds = result_.certificate.holds();
         if (holds) result_.outcome = outcome;
         result_.radius = plain ? result_.certificate.max_move : radius_;
@@ -125,58 +132,47 @@ private:
         return take(exact, Outcome::Repaired) || conform();
     }
 
-    // Without self-intersections where there are too many to list.
-    [[nodiscard]] ValidationReport defects() const {
-        ValidateOptions validation;
-        validation.list_limit = std::size_t{1} << 20U;
-        validation.lattice = lattice_;
-        try {
-            return validate(result_.mesh, validation);
-        } catch (const LimitError&) {
-            validation.self_intersection = false;
-            return validate(result_.mesh, validation);
-        }
-    }
-
     // Divides faces where they touch each other, as long as that helps.
     bool conform() {
         // Both faces have moved.
         const double reach = 4 * (result_.unit + result_.certificate.max_move);
         const Certificate moves = result_.certificate;
-        std::size_t least = std::numeric_limits<std::size_t>::max();
-        for (std::size_t pass = 0; pass < max_passes; ++pass) {
-            const ValidationReport report = defects();
-            const std::size_t pairs = report.count(DefectKind::SelfIntersection);
-            if (pass == 0 && result_.rounds == 0) result_.first_pairs = pairs;
-            if (pass > 0 && pairs > 4 * least + 16) return false;
-            least = std::min(least, pairs);
-            detail::ContactInsertion insertion(result_.mesh, reach, [this](const Point3d& p) {
-                Point3d r = p;
-                for (double& c : r) c = rounded(c, result_.unit, options_.precision);
-                return r;
-            });
-            for (const Defect& d : report.defects())
-                if (d.faces.size() == 2 &&
-                    (d.kind == DefectKind::SelfIntersection || d.kind == DefectKind::FacesTouch))
-                    insertion.add(d.faces[0], d.faces[1]);
-            if (insertion.is_empty()) return false;
-            result_.mesh = insertion.divided();
-            // Its distances are doubles' ones.
-            radius_ = sum_up(radius_, insertion.largest_move() * (1 + 0x1p-20) + result_.unit);
-            result_.radius = radius_;
-            result_.certificate = certify(result_.mesh);
-            result_.certificate.max_move = moves.max_move;
-            result_.certificate.rounded_vertices = moves.rounded_vertices;
-            if (!result_.certificate.holds()) continue;
-            result_.outcome = Outcome::Repaired;
-            return true;
-        }
-        return false;
+        detail::ContactDivision division(std::move(result_.mesh), result_.unit, lattice_,
+                                         [this](const Point3d& p) {
+                                             Point3d r = p;
+                                             for (double& c : r)
+                                                 c = rounded(c, result_.unit, options_.precision);
+                                             return r;
+                                         });
+        const bool holds = division.run(reach);
+        if (result_.rounds == 0) result_.first_pairs = division.first_pairs;
+        result_.mesh = std::move(division.mesh);
+        if (!division.certificate) return false;
+        radius_ = detail::sum_up(radius_, division.moved);
+        result_.radius = radius_;
+        result_.certificate = *division.certificate;
+        result_.certificate.max_move = moves.max_move;
+        result_.certificate.rounded_vertices = moves.rounded_vertices;
+        if (holds) result_.outcome = Outcome::Repaired;
+        return holds;
+    }
+
+    // The same with the nearest doubles, or floats, as they are.
+    bool conform_plain() {
+        std::optional<DividedContacts> divided =
+            divided_at_contacts(result_.mesh, result_.certificate, options_.precision);
+        if (!divided) return false;
+        result_.first_pairs = result_.certificate.self_intersecting_pairs.value_or(0);
+        result_.mesh = std::move(divided->mesh);
+        result_.certificate = divided->certificate;
+        result_.radius = divided->radius;
+        result_.outcome = Outcome::Repaired;
+        return true;
     }
 
     // Points of faces that meet.
     std::set<std::uint32_t> hot_points() {
-        const ValidationReport report = defects();
+        const ValidationReport report = detail::listed_defects(result_.mesh, lattice_);
         std::set<std::uint32_t> hot;
         for (const Defect& d : report.defects()) {
             if (d.severity() != Severity::Error) continue;
@@ -203,7 +199,7 @@ private:
             }
             result_.snapped_vertices += moved ? 1 : 0;
         }
-        radius_ = sum_up(radius_, most);
+        radius_ = detail::sum_up(radius_, most);
     }
 
     const Brep& brep_;
@@ -214,6 +210,31 @@ private:
 };
 
 }  // namespace
+
+std::optional<DividedContacts> divided_at_contacts(const PolygonMesh& mesh,
+                                                   const Certificate& certificate,
+                                                   Precision precision) {
+    const std::size_t pairs = certificate.self_intersecting_pairs.value_or(0);
+    if (!certificate.closed || pairs == 0 || pairs > most_contacts) return std::nullopt;
+    PolygonMesh plain = mesh;
+    if (precision == Precision::Float) to_floats(plain);
+    const double reach = reach_of(plain, certificate.max_move);
+    detail::ContactDivision division(std::move(plain), 0, std::nullopt, [&](const Point3d& p) {
+        Point3d r = p;
+        if (precision == Precision::Float)
+            for (double& c : r) c = static_cast<double>(static_cast<float>(c));
+        return r;
+    });
+    if (!division.run(reach)) return std::nullopt;
+    DividedContacts out;
+    out.mesh = std::move(division.mesh);
+    out.parents = std::move(division.parents);
+    out.certificate = *division.certificate;
+    out.certificate.max_move = certificate.max_move;
+    out.certificate.rounded_vertices = certificate.rounded_vertices;
+    out.radius = detail::sum_up(certificate.max_move, division.moved);
+    return out;
+}
 
 CertifiedRounding certified_rounding(const Brep& brep, const RoundingOptions& options) {
     return Rounding(brep, options).run();

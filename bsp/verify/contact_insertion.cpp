@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include <trisect/kernel/number/vector3.h>
 
@@ -114,10 +115,21 @@ void ContactInsertion::add(std::uint32_t f, std::uint32_t g) {
     add_crossings(triangle(f), triangle(g));
 }
 
-PolygonMesh ContactInsertion::divided() const {
+// Inserted points that the mesh has, with the first of their numbers.
+std::map<Point3d, std::uint32_t> ContactInsertion::known_points() const {
+    std::set<Point3d> inserted;
+    for (const auto& [edge, at] : edges_) inserted.insert(at);
+    for (const auto& [face, at] : faces_) inserted.insert(at);
+    std::map<Point3d, std::uint32_t> known;
+    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v)
+        if (inserted.contains(mesh_.points[v])) known.try_emplace(mesh_.points[v], v);
+    return known;
+}
+
+PolygonMesh ContactInsertion::divided(std::vector<std::uint32_t>* parents) const {
     PolygonMesh out;
     out.points = mesh_.points;
-    std::map<Point3d, std::uint32_t> added;
+    std::map<Point3d, std::uint32_t> added = known_points();
     const auto index_of = [&](const Point3d& p) {
         const auto [at, is_new] =
             added.try_emplace(p, static_cast<std::uint32_t>(out.points.size()));
@@ -143,7 +155,11 @@ PolygonMesh ContactInsertion::divided() const {
         }
         out.add_triangle(t[0], t[1], t[2]);
     };
+    const auto note_parent = [&](std::uint32_t f) {
+        if (parents != nullptr) parents->resize(out.face_count(), f);
+    };
     for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
+        if (f > 0) note_parent(f - 1);
         const auto corners = mesh_.face(f);
         const std::array<std::uint32_t, 3> t{corners[0], corners[1], corners[2]};
         const auto inside = faces_.find(f);
@@ -155,6 +171,7 @@ PolygonMesh ContactInsertion::divided() const {
         const std::uint32_t x = index_of(inside->second);
         for (std::size_t i = 0; i < 3; ++i) out.add_triangle(t[i], t[(i + 1) % 3], x);
     }
+    if (mesh_.face_count() > 0) note_parent(static_cast<std::uint32_t>(mesh_.face_count() - 1));
     return out;
 }
 

@@ -34,7 +34,9 @@ public:
     [[nodiscard]] bool is_empty() const { return edges_.empty() && faces_.empty(); }
     /// No point of the surface is moved farther than this; in the user's units, about.
     [[nodiscard]] double largest_move() const { return largest_move_; }
-    [[nodiscard]] PolygonMesh divided() const;
+    /// `parents`, where given, gets the triangle of the mesh that each one is a part of. Inserted
+    /// corners that the mesh has already keep their numbers.
+    [[nodiscard]] PolygonMesh divided(std::vector<std::uint32_t>* parents = nullptr) const;
 
 private:
     using Triangle = std::array<Point3d, 3>;
@@ -44,6 +46,7 @@ private:
     bool add_corners(const Triangle& of, std::uint32_t g);
     void add_crossings(const Triangle& f, const Triangle& g);
     void divide(const Point3d& a, const Point3d& b, const Point3d& at, double distance);
+    [[nodiscard]] std::map<Point3d, std::uint32_t> known_points() const;
 
     const PolygonMesh& mesh_;
     double reach_;

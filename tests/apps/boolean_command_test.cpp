@@ -174,6 +174,24 @@ TEST_F(BooleanCommand, RepairCertifiesWhatIsWritten) {
     EXPECT_TRUE(run("union", {a_, b_})["repair"].is_null());
 }
 
+TEST_F(BooleanCommand, AFaceIsDividedWhereAnEdgeLiesInIt) {
+    // A roof that stands on its ridge, inside the top of a box.
+    const std::string roof = write("roof.obj",
+                                   "v 1 1 2\nv 0 1 4\nv 2 1 4\nv 1 3 2\nv 0 3 4\nv 2 3 4\n"
+                                   "f 1 3 2\nf 4 5 6\nf 1 5 4\nf 1 2 5\nf 2 6 5\nf 2 3 6\n"
+                                   "f 3 4 6\nf 3 1 4\n");
+    const std::string below = box("below.obj", {0, 0, 0}, {4, 4, 2});
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--faces"}}) {
+        std::vector<std::string> words{below, roof};
+        words.insert(words.end(), more.begin(), more.end());
+        const json document = run("union", words);
+        EXPECT_TRUE(document["certificate"]["certified"]) << document["certificate"];
+        EXPECT_EQ(document["divided"], 4);
+        EXPECT_EQ(trisect({"check", out_, "--json"}).json()["errors"], 0);
+    }
+    EXPECT_EQ(run("difference", {below, roof})["divided"], 0);
+}
+
 TEST_F(BooleanCommand, UndecidedIsNotCertified) {
     // 2^-75: thirds of it have bits far below it.
     const std::string tetrahedron = write("t.obj",

@@ -200,6 +200,65 @@ TEST(CertifiedRounding, WhatFailsStaysWithinItsRadius) {
     EXPECT_GT(outside, 50);
 }
 
+// A roof that stands on its ridge: an edge from (1,1,2) to (1,3,2), inside the top of a box.
+PolygonMesh upturned_roof(double x, double y, double z) {
+    PolygonMesh roof;
+    for (const trisect::Point3d& p :
+         {trisect::Point3d{1, 1, 2}, {0, 1, 4}, {2, 1, 4}, {1, 3, 2}, {0, 3, 4}, {2, 3, 4}})
+        roof.points.push_back({p[0] + x, p[1] + y, p[2] + z});
+    for (const std::array<std::uint32_t, 3>& t : {std::array<std::uint32_t, 3>{0, 2, 1},
+                                                  {3, 4, 5},
+                                                  {0, 4, 3},
+                                                  {0, 1, 4},
+                                                  {1, 5, 4},
+                                                  {1, 2, 5},
+                                                  {2, 3, 5},
+                                                  {2, 0, 3}})
+        roof.add_triangle(t[0], t[1], t[2]);
+    return roof;
+}
+
+TEST(CertifiedRounding, AnEdgeInsideAFaceDividesIt) {
+    const Brep brep =
+        evaluate(Expression(Solid::from_mesh(trisect::make_box({0, 0, 0}, {4, 4, 2}))) |
+                 Expression(Solid::from_mesh(upturned_roof(0, 0, 0))))
+            .to_brep();
+    const PolygonMesh plain = to_polygon_mesh(brep);
+    const trisect::Certificate before = certify(brep, plain);
+    EXPECT_FALSE(before.holds());
+    const auto divided = divided_at_contacts(plain, before);
+    ASSERT_TRUE(divided);
+    EXPECT_TRUE(divided->certificate.holds());
+    EXPECT_LT(divided->radius, 1e-14);
+    // Corners are those of the roof: no new ones, and none twice.
+    EXPECT_EQ(divided->mesh.points.size(), plain.points.size());
+    ASSERT_EQ(divided->parents.size(), divided->mesh.face_count());
+    EXPECT_GT(divided->mesh.face_count(), plain.face_count());
+    EXPECT_TRUE(trisect::validate(divided->mesh).is_solid());
+    const CertifiedRounding r = certified_rounding(brep);
+    EXPECT_EQ(r.outcome, Outcome::Repaired);
+    EXPECT_EQ(r.unit, 0);
+    expect_proved(brep, r);
+}
+
+// Three roofs in a row and across each other, at coordinates that are no short fractions.
+TEST(CertifiedRounding, EdgesInsideFacesAreDividedAtRoundedCorners) {
+    for (const Precision precision : {Precision::Double, Precision::Float}) {
+        RoundingOptions options;
+        options.precision = precision;
+        const double top = 0.1 + 0.7;
+        PolygonMesh box = trisect::make_box({0.1, 0.1, 0.1}, {6.3, 6.9, top});
+        Expression all(Solid::from_mesh(box));
+        for (int i = 0; i < 3; ++i)
+            all = all | Expression(
+                            Solid::from_mesh(upturned_roof(0.3 + 1.3 * i, 0.7 + 0.9 * i, top - 2)));
+        const Brep brep = evaluate(all).to_brep();
+        const CertifiedRounding r = certified_rounding(brep, options);
+        EXPECT_NE(r.outcome, Outcome::Failed);
+        expect_proved(brep, r);
+    }
+}
+
 TEST(CertifiedRounding, RoundsAreBounded) {
     RoundingOptions none = floats();
     none.max_rounds = 0;
