@@ -353,11 +353,12 @@ SharedManifest::SharedManifest(std::string file, std::size_t readers) : file_(st
 }
 
 std::optional<ManifestShare> SharedManifest::read(std::size_t share) const {
-    const auto [begin, end] = place_->share(share, shares_);
-    if (begin == end) return ManifestShare();
     try {
+        const InputFile manifest(file_);
+        const auto [begin, end] = place_->share(manifest, share, shares_);
+        if (begin == end) return ManifestShare();
         std::string text(end - begin + 2, '[');
-        InputFile(file_).read(begin, std::span(text).subspan(1, end - begin));
+        manifest.read(begin, std::span(text).subspan(1, end - begin));
         text.back() = ']';
         return ManifestReader(file_).read_share(text);
     } catch (const Error&) {

@@ -121,6 +121,20 @@ class RankClash(unittest.TestCase):
         self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
 
     @unittest.skipUnless(READY, 'no MPI')
+    def test_where_parts_are_cut_is_a_guess(self):
+        # The list may be anywhere, and texts may look like parts: then one rank reads the whole.
+        document = json.loads(self.manifest.read_text(encoding='ascii'))
+        parts = document['parts'][:300]
+        others = [{'key': [{'file': 'block.off'}, {'file': 'bar.off'}] * 4000}]
+        texts = ['{"file": 1}, {"file": 2}' * 3] * 4000
+        for behind in ({}, {'sets': document['sets']}, {'sets': document['sets'], 'others': others}, {'texts': texts}):
+            for name in ('a name', '{"file": 1}, {"file": 2}'):
+                named = [{'id': part['name'], **part, 'name': name} for part in parts]
+                self.manifest.write_text(json.dumps({'parts': named, **behind}, indent=len(name) % 2 or None),
+                                         encoding='ascii')
+                self.assert_same(self.clash([TRISECT], 'whole'), self.clash(ranks(3), 'ranks'))
+
+    @unittest.skipUnless(READY, 'no MPI')
     def test_what_only_one_rank_reads(self):
         parts = [{'file': 'block.off', 'name': f'block {i}', 'pose': [i, 0, 0]} for i in range(20)]
         rows = [f'block.off,block {i},{i} 0 0' for i in range(20)]
