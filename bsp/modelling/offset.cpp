@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include <trisect/brep/primitives/extrusion.h>
 #include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/bsp/modelling/plane_triangles.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -30,8 +30,8 @@ double dot(const Point2d& a, const Point2d& b) { return a[0] * b[0] + a[1] * b[1
 
 class Strips {
 public:
-    Strips(double distance, const OffsetOptions& options)
-        : distance_(distance), options_(options) {}
+    Strips(double distance, const OffsetOptions& options, detail::PlaneTriangles& pieces)
+        : distance_(distance), options_(options), pieces_(pieces) {}
 
     void add_loop(const std::vector<Point2d>& loop) {
         const std::size_t n = loop.size();
@@ -39,21 +39,12 @@ public:
             const Point2d& p = loop[i];
             const Point2d& q = loop[(i + 1) % n];
             const Point2d along = normal(p, q);
-            add({p, q, moved(q, along, distance_), moved(p, along, distance_)});
+            pieces_.add_fan({p, q, moved(q, along, distance_), moved(p, along, distance_)});
             add_corner(q, along, normal(q, loop[(i + 2) % n]));
         }
     }
-    [[nodiscard]] const std::vector<Solid>& solids() const { return solids_; }
 
 private:
-    /// Left out when it has no area.
-    void add(const Outline& outline) {
-        try {
-            solids_.push_back(Solid::from_mesh(make_extrusion(outline, {}, 0, 1)));
-        } catch (const UsageError&) {
-        }
-    }
-
     /// Between the strips of two edges, where they are apart.
     void add_corner(const Point2d& at, const Point2d& before, const Point2d& after) {
         const double turn = std::atan2(cross(before, after), dot(before, after));
@@ -64,7 +55,7 @@ private:
         if (corners == Corners::Miter) add_miter(piece, at, before, after);
         if (corners == Corners::Chamfer) add_chamfer(piece, at, before, after, turn);
         piece.push_back(moved(at, after, distance_));
-        add(piece);
+        pieces_.add_fan(piece);
     }
 
     // The tip of a miter is sqrt(2 / (1 + cos)) distances away.
@@ -107,7 +98,7 @@ private:
 
     double distance_;
     const OffsetOptions& options_;
-    std::vector<Solid> solids_;
+    detail::PlaneTriangles& pieces_;
 };
 
 }  // namespace
@@ -118,7 +109,8 @@ Solid offset_of_region(const Solid& prism, double distance, const OffsetOptions&
     if (!(options.miter_limit >= 1)) throw UsageError("a limit of miters must be at least 1");
     if (distance == 0 || prism.is_empty()) return prism;
     const PlaneRegion region = region_of_faces(prism, 1);
-    Strips strips(distance, options);
+    detail::PlaneTriangles pieces;
+    Strips strips(distance, options, pieces);
     for (const auto& loop : region.loops) {
         std::vector<Point2d> points;
         for (const std::uint32_t v : loop) points.push_back(region.points[v]);
@@ -126,9 +118,11 @@ Solid offset_of_region(const Solid& prism, double distance, const OffsetOptions&
         while (points.size() > 1 && points.front() == points.back()) points.pop_back();
         if (points.size() >= 3) strips.add_loop(points);
     }
-    const Expression pieces = Expression::any_of(strips.solids());
-    const Solid base = solid_of_region(region);
-    return evaluate(distance > 0 ? base | pieces : base - pieces, options.evaluate);
+    if (distance < 0) return evaluate(solid_of_region(region) - pieces.prisms(), options.evaluate);
+    // With the region itself its edges are gone, on which strips stand.
+    for (const auto& [a, b, c] : region.triangles)
+        pieces.add(region.points[a], region.points[b], region.points[c]);
+    return evaluate(pieces.prisms(), options.evaluate);
 }
 
 }  // namespace trisect

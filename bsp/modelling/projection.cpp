@@ -2,35 +2,18 @@
 #include <trisect/bsp/modelling/projection.h>
 
 #include <cmath>
-#include <optional>
-#include <utility>
-#include <vector>
 
-#include <trisect/brep/primitives/extrusion.h>
-#include <trisect/kernel/error.h>
-#include <trisect/kernel/stop_scope.h>
+#include <trisect/bsp/modelling/plane_triangles.h>
 
 namespace trisect {
 namespace {
 
-/// Of a triangle that looks up; any other one covers nothing that these do not.
-std::optional<Solid> prism_over(const PolygonMesh& mesh, std::size_t f) {
-    Outline outline;
-    for (const std::uint32_t v : mesh.face(f))
-        outline.push_back({mesh.points[v][0], mesh.points[v][1]});
-    const Point2d& a = outline[0];
-    const Point2d& b = outline[1];
-    const Point2d& c = outline[2];
-    // A filter: where the sign is in doubt the triangle is taken, which covers nothing too much.
+/// Of a triangle; a filter: not where the sign is in doubt.
+bool looks_down(const Point3d& a, const Point3d& b, const Point3d& c) {
     const double turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     const double size = (std::abs(b[0] - a[0]) + std::abs(c[0] - a[0])) *
                         (std::abs(b[1] - a[1]) + std::abs(c[1] - a[1]));
-    if (turn < -1e-12 * size) return std::nullopt;
-    try {
-        return Solid::from_mesh(make_extrusion(outline, {}, 0, 1));
-    } catch (const UsageError&) {
-        return std::nullopt;  // it stands upright
-    }
+    return turn < -1e-12 * size;
 }
 
 }  // namespace
@@ -47,14 +30,19 @@ PlaneRegion section(const Solid& solid, double height, const EvaluateOptions& op
     return region_of_faces(both, 1);
 }
 
+// What looks down covers nothing that the triangles that look up do not. Walls are below their
+// outline alone, the silhouette.
 Solid shadow(const Solid& solid, const EvaluateOptions& options) {
-    const PolygonMesh mesh = solid.to_mesh();
-    std::vector<Solid> prisms;
+    const PolygonMesh mesh = solid.to_mesh(options.threads);
+    detail::PlaneTriangles seen;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        detail::check_stop();
-        if (auto prism = prism_over(mesh, f)) prisms.push_back(std::move(*prism));
+        const auto t = mesh.face(f);
+        const Point3d& a = mesh.points[t[0]];
+        const Point3d& b = mesh.points[t[1]];
+        const Point3d& c = mesh.points[t[2]];
+        if (!looks_down(a, b, c)) seen.add({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
     }
-    return evaluate(Expression::any_of(prisms), options);
+    return evaluate(seen.prisms(), options);
 }
 
 }  // namespace trisect

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <trisect/brep/primitives/extrusion.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/transform.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/modelling/projection.h>
 #include <trisect/bsp/solid_measure.h>
+#include <trisect/bsp/solid_transform.h>
+#include <trisect/kernel/error.h>
 
 #include <gtest/gtest.h>
 
@@ -29,6 +33,43 @@ TEST(Projection, FacesInThePlaneCountOnBothSides) {
     EXPECT_EQ(area_at(steps, 0), 6);
     EXPECT_EQ(area_at(steps, 1), 4);
     EXPECT_EQ(area_at(steps, -1), 4);
+}
+
+/// The union of the triangles' own prisms, one operand for each.
+Solid shadow_by_triangles(const Solid& solid) {
+    const PolygonMesh mesh = solid.to_mesh();
+    std::vector<Solid> prisms;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        Outline outline;
+        for (const std::uint32_t v : mesh.face(f))
+            outline.push_back({mesh.points[v][0], mesh.points[v][1]});
+        try {
+            prisms.push_back(Solid::from_mesh(make_extrusion(outline, {}, 0, 1)));
+        } catch (const UsageError&) {
+        }
+    }
+    return evaluate(Expression::any_of(prisms));
+}
+
+void expect_same_shadow(const Solid& solid) {
+    const Solid one = shadow(solid);
+    const Solid other = shadow_by_triangles(solid);
+    EXPECT_EQ(exact_volume(one), exact_volume(other));
+    EXPECT_TRUE(evaluate(one ^ other).is_empty());
+}
+
+// Layers above each other, walls that stand upright, holes behind others, and corners that were
+// rounded, so that walls stand only nearly upright.
+TEST(Projection, ShadowsAreUnionsOfTheirTriangles) {
+    const Solid ball = Solid::from_mesh(make_icosphere(2, 1));
+    const Solid plate = box({-3, -1, 3}, {3, 1, 4});
+    expect_same_shadow(evaluate(ball | plate));
+    expect_same_shadow(evaluate((box({-3, -3, -3}, {3, 3, 3}) - box({-2, -2, -4}, {2, 2, 4})) |
+                                box({-1, -4, 5}, {1, 4, 6})));
+    const AffineMap turn{{{{0.36, 0.48, -0.8, 0}, {-0.8, 0.6, 0, 0}, {0.48, 0.64, 0.6, 0}}}};
+    const Solid cross = evaluate(box({-3, -1, -1}, {3, 1, 1}) | box({-1, -3, -1}, {1, 3, 1}) |
+                                 box({-1, -1, -3}, {1, 1, 3}));
+    expect_same_shadow(transformed(cross, turn));
 }
 
 TEST(Projection, Shadows) {
