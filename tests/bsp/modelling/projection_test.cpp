@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/solids.h"
 
 namespace trisect {
@@ -26,6 +28,37 @@ TEST(Projection, SectionsHaveTheirHoles) {
     EXPECT_EQ(area_at(hollow, 0), 20);
     EXPECT_EQ(area_at(hollow, 2.5), 36);
     EXPECT_EQ(area_at(hollow, 4), 0);
+}
+
+/// Where triangles cross the plane, in doubles.
+double area_of_crossings(const PolygonMesh& mesh, double height) {
+    double twice = 0;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        Point2d from{};
+        Point2d to{};
+        const auto t = mesh.face(f);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Point3d& a = mesh.points[t[k]];
+            const Point3d& b = mesh.points[t[(k + 1) % 3]];
+            if ((a[2] > height) == (b[2] > height)) continue;
+            const double part = (height - a[2]) / (b[2] - a[2]);
+            const Point2d p{a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
+            (a[2] > height ? from : to) = p;
+        }
+        twice += from[0] * to[1] - from[1] * to[0];
+    }
+    return twice / 2;
+}
+
+TEST(Projection, SectionsWithoutAFaceInThePlane) {
+    const Solid ball = Solid::from_mesh(make_icosphere(2, 3));
+    const Solid shell = evaluate(ball - Solid::from_mesh(make_icosphere(1, 2)));
+    for (const double height : {-1.7, -0.9, 0.125, 0.3, 1.1})
+        EXPECT_NEAR(std::fabs(area_of_crossings(shell.to_mesh(), height)), area_at(shell, height),
+                    1e-9)
+            << height;
+    EXPECT_EQ(area_at(shell, 1e9), 0);
+    EXPECT_EQ(area_at(shell, 2.5), 0);
 }
 
 TEST(Projection, FacesInThePlaneCountOnBothSides) {
