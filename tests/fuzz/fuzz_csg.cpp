@@ -8,6 +8,7 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include <string_view>
 
 #include "byte_source.h"
+#include "csg_mutations.h"
 
 namespace {
 
@@ -144,7 +146,7 @@ private:
 
 void evaluate_text(const std::string& text) {
     trisect::StopLimits limits;
-    limits.max_work = 200'000;
+    limits.max_work = 20'000;
     limits.max_memory = std::uint64_t{64} << 20;
     const trisect::StopScope scope(limits);
     trisect::CsgOptions options;
@@ -159,6 +161,25 @@ void evaluate_text(const std::string& text) {
 }
 
 }  // namespace
+
+// libFuzzer's own changes of bytes, where it is.
+extern "C" __attribute__((weak)) std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
+                                                              std::size_t most);
+
+/// Half of the changes of text are changes of its nodes and numbers.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed);
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t most, unsigned seed) {
+    if (size == 0 || data[0] % 8 != 0 || seed % 2 == 0)
+        return LLVMFuzzerMutate == nullptr ? size : LLVMFuzzerMutate(data, size, most);
+    const std::string now =
+        fuzz::CsgMutation(std::string(reinterpret_cast<const char*>(data) + 1, size - 1), seed)
+            .result()
+            .substr(0, most - 1);
+    std::copy(now.begin(), now.end(), data + 1);
+    return now.size() + 1;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
