@@ -52,8 +52,10 @@ PolygonMesh csg_cube(const CsgArguments& arguments) {
     const std::vector<double> size = arguments.numbers("size", 3, 1);
     if (!std::all_of(size.begin(), size.begin() + 3, [](double s) { return s > 0; })) return {};
     if (!arguments.truth("center", false)) return make_box({size[0], size[1], size[2]});
-    return make_box({-size[0] / 2, -size[1] / 2, -size[2] / 2},
-                    {size[0] / 2, size[1] / 2, size[2] / 2});
+    const Point3d half{size[0] / 2, size[1] / 2, size[2] / 2};
+    // Half of the least double is 0.
+    if (!std::all_of(half.begin(), half.end(), [](double s) { return s > 0; })) return {};
+    return make_box({-half[0], -half[1], -half[2]}, half);
 }
 
 void add_band(PolygonMesh& mesh, std::uint32_t lower, std::uint32_t upper, std::uint32_t n) {

@@ -8,10 +8,12 @@
 #include <trisect/bsp/modelling/plane_triangles.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <utility>
 
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/stop_scope.h>
@@ -27,6 +29,8 @@ int turn_of(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c)
 }  // namespace
 
 std::uint32_t PlaneTriangles::number(const Point2d& p) {
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]))
+        throw LimitError("a corner of a region of the plane leaves the range of doubles");
     const Point2d at{p[0] + 0.0, p[1] + 0.0};  // minus zero is zero
     const auto [it, is_new] = numbers_.emplace(at, static_cast<std::uint32_t>(points_.size()));
     if (is_new) points_.push_back({at[0], at[1], 0});

@@ -18,7 +18,7 @@ namespace trisect::detail {
 /// Collects triangles, whichever way they run. Corners of equal coordinates are one.
 class PlaneTriangles {
 public:
-    /// Left out when it is flat.
+    /// Left out when it is flat. \throw LimitError for corners that are not finite
     void add(const Point2d& a, const Point2d& b, const Point2d& c);
     /// From its first corner. The union is that of the triangles, whatever the outline.
     void add_fan(const Outline& outline);

@@ -242,6 +242,11 @@ TEST(CsgEvaluate, EqualShapesAreMadeOnce) {
 }
 
 // Facets of one mesh that is inside out, beside a mesh without volume.
+TEST(CsgEvaluate, HalfOfTheLeastDoubleIsNoSize) {
+    EXPECT_EQ(volume_of("cube(size = [5e-324, 20, 20], center = true);"), "0");
+    EXPECT_EQ(volume_of("square(size = [5e-324, 20], center = true);"), "0");
+}
+
 TEST(CsgEvaluate, AFlatPolyhedronAddsNothing) {
     const std::string faces = "faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);";
     const std::string solid =
