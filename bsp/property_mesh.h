@@ -24,8 +24,8 @@ struct PropertyMesh {
     PolygonMesh mesh;  ///< triangles
     CornerProperties properties;
     std::vector<FaceSource> source;  ///< by triangle: operand (the source_id) and face of its mesh
-    /// By triangle: whether it looks the other way than that face does, as walls of a hole do. Turn
-    /// normals over there.
+    /// By triangle: whether it looks the other way than that face does, as walls of a hole do.
+    /// Channels of normals are turned over there; numbers without names are as they are.
     std::vector<bool> is_turned_over;
 };
 
@@ -33,14 +33,20 @@ struct PropertyMesh {
 /// linearly in that face, once, from the rounded corner; they never leave the range of the values
 /// at the face's corners, and are exactly these at corners of the face. A face of more than three
 /// corners counts as a fan of triangles from its first corner: it should be convex, or linear.
-/// The width is that of the widest operand; what an operand does not have is 0. Costs to_brep() and
-/// O(1) for each corner.
+/// The channels are those of all operands; what an operand does not have is absent. Normals are
+/// not brought to a length. Without channels the width is that of the widest operand, and what an
+/// operand does not have is 0. Costs to_brep() and O(1) for each corner.
 ///
 /// Where faces of two operands lie in one plane and look the same way, the face that the result
 /// names is one of both.
-/// \throw UsageError for an operand whose properties do not fit its mesh or that is named twice;
-/// UnsupportedError when the boundary is unbounded
+/// \throw UsageError for an operand whose properties do not fit its mesh or that is named twice,
+/// and for channels of one name that differ; UnsupportedError when the boundary is unbounded
 [[nodiscard]] PropertyMesh to_property_mesh(const Solid& solid,
                                             std::span<const PropertyOperand> operands);
+
+/// The same for triangles that are there already, of which `source` names the faces. Each lies
+/// within its face, but for rounding.
+[[nodiscard]] PropertyMesh with_properties(PolygonMesh triangles, std::vector<FaceSource> source,
+                                           std::span<const PropertyOperand> operands);
 
 }  // namespace trisect

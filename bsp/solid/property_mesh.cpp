@@ -8,9 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <trisect/kernel/error.h>
 
@@ -100,6 +103,8 @@ private:
 class PropertyWriter {
 public:
     PropertyWriter(std::span<const PropertyOperand> operands, PropertyMesh& out) : out_(out) {
+        for (const PropertyOperand& operand : operands) check(operand);
+        unite_channels(operands);
         for (const PropertyOperand& operand : operands) add(operand);
     }
 
@@ -109,16 +114,45 @@ public:
     }
 
 private:
-    void add(const PropertyOperand& operand) {
+    static void check(const PropertyOperand& operand) {
         const bool fits = operand.mesh != nullptr &&
                           (operand.properties == nullptr ||
                            operand.properties->values.size() ==
                                operand.properties->width * operand.mesh->corners.size());
         if (!fits) throw UsageError("to_property_mesh: properties do not fit their mesh");
-        if (!operands_.emplace(operand.source_id, operand).second)
-            throw UsageError("to_property_mesh: an operand is named twice");
-        if (operand.properties != nullptr)
+    }
+
+    /// Numbers with names come under the names of all operands, others stay in their columns.
+    void unite_channels(std::span<const PropertyOperand> operands) {
+        std::vector<const CornerProperties*> all;
+        bool has_channels = false;
+        for (const PropertyOperand& operand : operands) {
+            if (operand.properties == nullptr || operand.properties->width == 0) continue;
+            all.push_back(operand.properties);
+            has_channels = has_channels || !operand.properties->channels.empty();
             out_.properties.width = std::max(out_.properties.width, operand.properties->width);
+        }
+        if (!has_channels) return;
+        out_.properties.channels = united_channels(all);
+        out_.properties.width = 0;
+        for (const PropertyChannel& channel : out_.properties.channels) {
+            const std::size_t first = out_.properties.width;
+            out_.properties.width += channel.width;
+            if (channel.meaning != PropertyMeaning::Normal) continue;
+            for (std::size_t i = first; i < out_.properties.width; ++i) normals_.push_back(i);
+        }
+        missing_ = absent_number;
+    }
+
+    void add(const PropertyOperand& operand) {
+        PropertyOperand own = operand;
+        if (operand.properties != nullptr && !out_.properties.channels.empty()) {
+            united_.push_back(under_channels(*operand.properties, out_.properties.channels,
+                                             operand.mesh->corners.size()));
+            own.properties = &united_.back();
+        }
+        if (!operands_.emplace(operand.source_id, own).second)
+            throw UsageError("to_property_mesh: an operand is named twice");
     }
 
     void triangle(std::size_t t) {
@@ -127,8 +161,8 @@ private:
             it != operands_.end() && out_.source[t].face < it->second.mesh->face_count();
         if (!is_known) {
             out_.is_turned_over.push_back(false);
-            out_.properties.values.resize(out_.properties.values.size() +
-                                          3 * out_.properties.width);
+            out_.properties.values.resize(out_.properties.values.size() + 3 * out_.properties.width,
+                                          missing_);
             return;
         }
         const SourceFace face(it->second, out_.source[t].face);
@@ -137,12 +171,24 @@ private:
         const auto normal = normal_of(points[corners[0]], points[corners[1]], points[corners[2]]);
         out_.is_turned_over.push_back(dot(normal, face.normal()) < 0);
         for (const std::uint32_t c : corners) corner(it->second, face, points[c]);
+        if (out_.is_turned_over.back()) turn_normals();
+    }
+
+    /// Of the last three corners.
+    void turn_normals() {
+        const std::size_t width = out_.properties.width;
+        const std::size_t end = out_.properties.values.size();
+        for (std::size_t k = 1; k <= 3; ++k)
+            for (const std::size_t column : normals_) {
+                double& x = out_.properties.values[end - k * width + column];
+                x = -x;
+            }
     }
 
     void corner(const PropertyOperand& operand, const SourceFace& face, const Point3d& p) {
         std::vector<double>& values = out_.properties.values;
         const std::size_t first = values.size();
-        values.resize(first + out_.properties.width);
+        values.resize(first + out_.properties.width, missing_);
         if (operand.properties == nullptr) return;
         const CornerProperties& from = *operand.properties;
         if (const auto same = face.corner_at(p)) {
@@ -162,24 +208,35 @@ private:
                 least = std::min(least, v);
                 most = std::max(most, v);
             }
-            values[first + i] = std::clamp(static_cast<double>(value), least, most);
+            values[first + i] = std::isnan(value)
+                                    ? absent_number
+                                    : std::clamp(static_cast<double>(value), least, most);
         }
     }
 
     std::map<std::uint32_t, PropertyOperand> operands_;
+    std::deque<CornerProperties> united_;
+    std::vector<std::size_t> normals_;  ///< columns
+    double missing_ = 0;
     PropertyMesh& out_;
 };
 
 }  // namespace
 
-PropertyMesh to_property_mesh(const Solid& solid, std::span<const PropertyOperand> operands) {
+PropertyMesh with_properties(PolygonMesh triangles, std::vector<FaceSource> source,
+                             std::span<const PropertyOperand> operands) {
     PropertyMesh out;
     PropertyWriter writer(operands, out);
-    MeshMap map;
-    out.mesh = to_polygon_mesh(solid.to_brep({.maximal_faces = false}), {}, &map);
-    out.source = std::move(map.source);
+    out.mesh = std::move(triangles);
+    out.source = std::move(source);
     writer.write();
     return out;
+}
+
+PropertyMesh to_property_mesh(const Solid& solid, std::span<const PropertyOperand> operands) {
+    MeshMap map;
+    PolygonMesh mesh = to_polygon_mesh(solid.to_brep({.maximal_faces = false}), {}, &map);
+    return with_properties(std::move(mesh), std::move(map.source), operands);
 }
 
 }  // namespace trisect

@@ -240,5 +240,53 @@ TEST(PropertyMesh, PropertiesThatDoNotFitAreRefused) {
     EXPECT_THROW((void)to_property_mesh(a.solid, short_one), UsageError);
 }
 
+/// A box with one channel, the same number at all corners.
+Textured with_channel(const PolygonMesh& mesh, PropertyChannel channel, double number) {
+    Textured out;
+    out.mesh = in_triangles(mesh);
+    out.properties.width = channel.width;
+    out.properties.values.assign(channel.width * out.mesh.corners.size(), number);
+    out.properties.channels = {std::move(channel)};
+    out.solid = Solid::from_mesh(out.mesh);
+    return out;
+}
+
+TEST(PropertyMesh, WhatAnOperandDoesNotHaveIsAbsent) {
+    const Textured a = with_channel(make_box({2, 2, 2}), {"tag", PropertyMeaning::Any, 1}, 7);
+    const Textured b = with_channel(make_box({1, 1, 9}), {"heat", PropertyMeaning::Any, 1}, 0.5);
+    const std::array operands{a.operand(), b.operand()};
+    const PropertyMesh result = to_property_mesh(evaluate(a.solid | b.solid), operands);
+    ASSERT_EQ(result.properties.channels.size(), 2U);
+    EXPECT_EQ(result.properties.channels[0].name, "tag");
+    std::size_t seen = 0;
+    for (std::size_t c = 0; c < result.mesh.corners.size(); ++c) {
+        const auto row = result.properties.at(c);
+        const bool is_a = result.source[c / 3].operand == a.solid.source_id();
+        seen |= is_a ? 1U : 2U;
+        EXPECT_EQ(is_a ? row[0] : row[1], is_a ? 7 : 0.5);
+        EXPECT_TRUE(std::isnan(is_a ? row[1] : row[0]));
+    }
+    EXPECT_EQ(seen, 3U);
+}
+
+TEST(PropertyMesh, NormalsOfWallsOfHolesAreTurned) {
+    const PropertyChannel normal{"normal", PropertyMeaning::Normal, 3};
+    const Textured a = with_channel(make_box({2, 2, 2}), normal, 1);
+    const Textured b = with_channel(make_box({1, 1, 9}), normal, 1);
+    const std::array operands{a.operand(), b.operand()};
+    const PropertyMesh result = to_property_mesh(evaluate(a.solid - b.solid), operands);
+    for (std::size_t c = 0; c < result.mesh.corners.size(); ++c) {
+        const bool is_a = result.source[c / 3].operand == a.solid.source_id();
+        EXPECT_EQ(result.properties.at(c)[1], is_a ? 1 : -1);
+    }
+}
+
+TEST(PropertyMesh, ChannelsOfOneNameMustAgree) {
+    const Textured a = with_channel(make_box({2, 2, 2}), {"tag", PropertyMeaning::Any, 1}, 7);
+    const Textured b = with_channel(make_box({1, 1, 9}), {"tag", PropertyMeaning::Any, 2}, 7);
+    const std::array operands{a.operand(), b.operand()};
+    EXPECT_THROW((void)to_property_mesh(a.solid, operands), UsageError);
+}
+
 }  // namespace
 }  // namespace trisect
