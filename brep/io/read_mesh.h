@@ -10,8 +10,8 @@
 // the order of the file. STL has no indices: corners with equal coordinates become one vertex
 // (-0.0 equals 0.0; the first one's spelling stays), numbered by first appearance.
 //
-// What is ignored: normals, texture coordinates, colours, materials, groups, lines, points and, in
-// PLY, every other element and property.
+// What is ignored: normals, texture coordinates, colours and materials (read_model keeps them where
+// asked), groups, lines, points and, in PLY, every other element and property.
 //
 // What is refused, with its place: a number that is not finite or does not end where its word ends;
 // an index out of range; a face with fewer than three corners; a file that ends early; anything but
@@ -48,13 +48,20 @@ struct ReadLimits {
     std::uint64_t entities = 100'000'000;      ///< of a STEP file
     std::uint64_t instances = 100'000;         ///< of meshes, where files place them
     std::uint64_t archive_entries = 10'000;
-    std::uint64_t unpacked_bytes = std::uint64_t{2} << 30;  ///< of an archive's read entries
+    std::uint64_t unpacked_bytes = std::uint64_t{2} << 30;    ///< of an archive's read entries
+    std::uint64_t property_numbers = std::uint64_t{1} << 28;  ///< at corners, in all
     std::uint64_t unpacked_ratio = 250;  ///< to the packed size, of entries beyond a megabyte
 };
 
 struct ReadOptions {
     std::optional<MeshFormat> format;  ///< default: by extension, else by content
     ReadLimits limits;
+    /// read_model: also materials of OBJ and PLY, textures, and properties of corners (OBJ, PLY,
+    /// GLB, 3MF). Costs another pass over the file, and the memory.
+    bool properties = false;
+    /// Where files are that the file names (material libraries, pictures); without it they are not
+    /// looked for. read_model takes that of its path.
+    std::optional<std::filesystem::path> folder = {};
 };
 
 /// Reads a file. Errors: InputError (unreadable, unknown format, malformed), LimitError.

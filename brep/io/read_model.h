@@ -13,10 +13,10 @@
 // fractions and each coordinate is rounded once; the report says how many changed by that. A mirror
 // turns faces over. One that makes space flat is refused.
 //
-// What is ignored: textures, normals, lights, cameras, animations, slices, metadata other than
-// names; of vertex colours all. What would change the shape and is not understood is refused by its
-// name: extensions that the file says it requires, skins, morphs, compressed and external buffers,
-// curved triangles.
+// What is ignored: lights, cameras, animations, slices, metadata other than names; unless asked for
+// (ReadOptions::properties) textures, normals and vertex colours. What would change the shape and
+// is not understood is refused by its name: extensions that the file says it requires, skins,
+// morphs, compressed and external buffers, curved triangles.
 //
 // The same formats are read by read_mesh, which returns merged(model).
 #pragma once
@@ -27,6 +27,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trisect {
 
@@ -37,6 +38,9 @@ struct ModelReport {
     /// STEP: corners farther from the plane stated for their face than the file's uncertainty.
     std::size_t off_plane_corners = 0;
     double largest_plane_distance = 0;  ///< of any corner, in the file's unit
+    /// What was asked for by ReadOptions::properties and is not there: files that the file names,
+    /// ways to put pictures on faces that are passed over.
+    std::vector<std::string> remarks = {};
     friend bool operator==(const ModelReport&, const ModelReport&) = default;
 };
 

@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace trisect {
 
@@ -29,6 +30,9 @@ enum class PlyEncoding : std::uint8_t { Ascii, BinaryLittleEndian, BinaryBigEndi
 struct WriteOptions {
     std::optional<MeshFormat> format;  ///< default: by extension
     PlyEncoding ply_encoding = PlyEncoding::BinaryLittleEndian;
+    /// Write textures and properties of corners, in OBJ and PLY also materials. Refused for formats
+    /// other than OBJ, PLY, GLB and 3MF.
+    bool properties = false;
 };
 
 /// What writing did to the coordinates. Only binary STL ever does anything.
@@ -37,12 +41,20 @@ struct WriteReport {
     std::size_t rounded_vertices = 0;  ///< vertices with a changed coordinate
     double largest_move = 0;          ///< largest change of one coordinate, in the unit of the mesh
     std::size_t merged_vertices = 0;  ///< how many fewer distinct vertices there are by rounding
+    std::vector<std::string> left_out = {};  ///< properties that the format does not hold
     friend bool operator==(const WriteReport&, const WriteReport&) = default;
+};
+
+/// A file that belongs beside another one.
+struct SideFile {
+    std::string name;  ///< without a folder
+    std::string bytes;
 };
 
 struct FormattedMesh {
     std::string bytes;
     WriteReport report;
+    std::vector<SideFile> files = {};  ///< with properties: a material library, pictures
 };
 
 /// The bytes of a file. Deterministic; `name` stands for the file in messages.

@@ -34,7 +34,16 @@ namespace trisect {
 /// planar, by part.
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> faces_off_planes(const Model& model);
 
-/// Writes a file as write_mesh does.
+/// Whether textures and properties of corners can be written (WriteOptions::properties): OBJ, PLY,
+/// GLB and 3MF.
+[[nodiscard]] bool holds_properties(MeshFormat format) noexcept;
+
+/// Drops the bytes of pictures that lie in this folder under their names, so that OBJ and PLY refer
+/// to them and do not bring copies.
+void refer_to_pictures_in(Model& model, const std::filesystem::path& folder);
+
+/// Writes a file as write_mesh does, after those beside it (FormattedMesh::files). OBJ and PLY
+/// refer to pictures that are there.
 WriteReport write_model(const std::filesystem::path& path, const Model& model,
                         const WriteOptions& options = {});
 

@@ -64,6 +64,7 @@ public:
 
 private:
     void statement(std::string_view keyword) {
+        if (keyword == "comment") header_.comments.emplace_back(text_.rest_of_line());
         if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return;
         if (keyword == "format")
             format();

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trisect::detail {
@@ -69,7 +70,8 @@ struct PlyElement {
 struct PlyHeader {
     PlyEncoding encoding = PlyEncoding::Ascii;
     std::vector<PlyElement> elements;
-    const char* body = nullptr;  ///< the first byte after the header
+    std::vector<std::string_view> comments;  ///< without the keyword; in the bytes of the file
+    const char* body = nullptr;              ///< the first byte after the header
 };
 
 /// Reads and checks the syntax; what the elements mean is not looked at.

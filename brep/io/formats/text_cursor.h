@@ -84,6 +84,16 @@ public:
         return {first, static_cast<std::size_t>(here_ - first)};
     }
 
+    /// All words of the rest of the line, as they stand; a line end in between ends them.
+    std::string_view rest_of_line() {
+        if (at_line_end()) return {};
+        const char* const first = here_;
+        const char* last = line_end_;
+        while (last != first && is_blank(last[-1])) --last;
+        here_ = line_end_;
+        return {first, static_cast<std::size_t>(last - first)};
+    }
+
     /// Moves over line ends until there is a word; false at the end of the file.
     bool seek_word() {
         while (at_line_end()) {

@@ -62,8 +62,9 @@ GlbAccessor glb_accessor(const GlbDocument& glb, std::uint64_t index, const GlbV
     out.offset = glb.count(a, "byteOffset").value_or(0);
     const GlbValue view = glb.at("bufferViews", out.view, a);
     const std::string_view bytes = view_bytes(glb, view);
-    const std::uint64_t element =
-        size_of(glb, a, out.component) * (std::string_view(type) == "VEC3" ? 3 : 1);
+    const char last = std::string_view(type).back();
+    const std::uint64_t element = size_of(glb, a, out.component) *
+                                  (last >= '2' && last <= '4' ? std::uint64_t(last - '0') : 1);
     out.stride = glb.count(view, "byteStride").value_or(element);
     if (out.stride < element || out.stride > 255) glb.fail(view, "a byteStride that cannot be");
     const bool fits =
@@ -98,6 +99,29 @@ std::vector<Point3d> glb_points(const GlbDocument& glb, const GlbAccessor& acces
         at += &p == &points.back() ? 0 : accessor.stride;
     }
     return points;
+}
+
+void glb_numbers(const GlbDocument& glb, const GlbAccessor& accessor, std::uint64_t index,
+                 std::span<double> out) {
+    const char* const at = accessor.data + index * accessor.stride;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        if (accessor.component == floats_type) {
+            out[k] = static_cast<double>(load<float, false>(at + 4 * k));
+            if (!std::isfinite(out[k]))
+                glb.source().fail(at + 4 * k,
+                                  accessor.value.path + ": a number that is not finite");
+        } else if (accessor.component == bytes_type) {
+            out[k] = load<std::uint8_t, false>(at + k) / 255.0;
+        } else if (accessor.component == shorts_type) {
+            out[k] = load<std::uint16_t, false>(at + 2 * k) / 65535.0;
+        } else {
+            glb.fail(accessor.value, "attributes of this type of component are not read");
+        }
+    }
+}
+
+std::string_view glb_view(const GlbDocument& glb, std::uint64_t index, const GlbValue& user) {
+    return view_bytes(glb, glb.at("bufferViews", index, user));
 }
 
 std::vector<std::uint32_t> glb_indices(const GlbDocument& glb, const GlbAccessor& accessor) {

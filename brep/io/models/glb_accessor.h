@@ -7,6 +7,8 @@
 #include <trisect/brep/polygon_mesh.h>
 
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace trisect::detail {
@@ -22,7 +24,7 @@ struct GlbAccessor {
     std::uint64_t offset = 0;  ///< in the view
 };
 
-/// \param type "SCALAR" or "VEC3"
+/// \param type "SCALAR", "VEC2", "VEC3" or "VEC4"
 /// \throw InputError; UnsupportedError for external buffers, compression, and for sparse data
 /// unless that is allowed, when it is not looked at
 [[nodiscard]] GlbAccessor glb_accessor(const GlbDocument& glb, std::uint64_t index,
@@ -31,6 +33,14 @@ struct GlbAccessor {
 
 /// Points of an accessor of single precision; each must be finite.
 [[nodiscard]] std::vector<Point3d> glb_points(const GlbDocument& glb, const GlbAccessor& accessor);
+
+/// The numbers of one entry: floats, or bytes and words as shares of their largest.
+void glb_numbers(const GlbDocument& glb, const GlbAccessor& accessor, std::uint64_t index,
+                 std::span<double> out);
+
+/// The bytes of a buffer view.
+[[nodiscard]] std::string_view glb_view(const GlbDocument& glb, std::uint64_t index,
+                                        const GlbValue& user);
 
 /// Whole numbers of 8, 16 or 32 bits.
 [[nodiscard]] std::vector<std::uint32_t> glb_indices(const GlbDocument& glb,

@@ -12,7 +12,9 @@
 
 #include <trisect/brep/io/formats/vertex_welder.h>
 #include <trisect/brep/io/models/glb_accessor.h>
+#include <trisect/brep/io/models/glb_attributes.h>
 #include <trisect/brep/io/models/glb_document.h>
+#include <trisect/brep/io/models/glb_textures.h>
 #include <trisect/brep/io/models/placement.h>
 #include <trisect/brep/io/models/srgb.h>
 #include <trisect/kernel/stop_scope.h>
@@ -40,7 +42,12 @@ bool is_of_looks_only(std::string_view extension) {
 
 class GlbReader {
 public:
-    GlbReader(const InputText& source, ModelReport& report) : glb_(source), report_(report) {}
+    GlbReader(const InputText& source, const ReadOptions& options, ModelReport& report)
+        : glb_(source),
+          options_(options),
+          files_(options, report.remarks),
+          textures_(glb_, files_),
+          report_(report) {}
 
     Model read() {
         check_extensions();
@@ -48,6 +55,7 @@ public:
         const auto roots = scene_nodes();
         const GlbValue user = glb_.root();
         for (const std::uint64_t node : roots) place_node(node, user, ExactAffine(), 1);
+        model_.textures = textures_.take();
         return std::move(model_);
     }
 
@@ -55,6 +63,7 @@ private:
     struct MeshPart {
         PolygonMesh mesh;
         std::vector<std::uint32_t> materials;
+        CornerProperties properties;
     };
 
     void check_extensions() const {
@@ -78,6 +87,7 @@ private:
                     srgb_of_light(light[0]), srgb_of_light(light[1]), srgb_of_light(light[2]),
                     static_cast<std::uint8_t>(std::lround(255 * std::clamp(light[3], 0.0, 1.0)))};
             }
+            if (options_.properties) made.texture = textures_.of_material(m);
             model_.materials.push_back(std::move(made));
         }
     }
@@ -169,6 +179,12 @@ private:
         if (part.name.empty()) part.name = glb_.text(value, "name");
         add_placed(part, mesh.mesh, placement, report_);
         part.materials = mesh.materials;
+        numbers_ += mesh.properties.values.size();
+        if (numbers_ > limits.property_numbers)
+            glb_.source().fail_limit(glb_.source().begin(),
+                                     "nodes place more numbers at corners than the limits for a "
+                                     "file allow");
+        part.properties = placed_properties(mesh.properties, mesh.mesh, placement);
         model_.parts.push_back(std::move(part));
     }
 
@@ -188,10 +204,12 @@ private:
         const auto extensions = glb_.object(value, "extensions");
         const auto manifold =
             extensions ? glb_.object(*extensions, "EXT_mesh_manifold") : std::nullopt;
+        PropertyCollector properties(glb_.source());
         if (manifold)
-            read_manifold(value, *manifold, part);
+            read_manifold(value, *manifold, part, properties);
         else
-            read_primitives(value, part);
+            read_primitives(value, part, properties);
+        part.properties = properties.finish(part.mesh.corners.size());
         if (std::all_of(part.materials.begin(), part.materials.end(),
                         [](std::uint32_t m) { return m == no_material; }))
             part.materials.clear();
@@ -248,7 +266,15 @@ private:
         return known->second;
     }
 
-    void read_primitives(const GlbValue& mesh, MeshPart& part) {
+    /// What the vertices of a primitive have; nothing where it is not asked for.
+    std::optional<GlbAttributes> attributes_of(const GlbValue& primitive,
+                                               std::uint64_t vertices) const {
+        if (!options_.properties) return std::nullopt;
+        const std::uint32_t material = material_of(primitive);
+        return GlbAttributes(glb_, primitive, vertices, textures_.set_of_material(material));
+    }
+
+    void read_primitives(const GlbValue& mesh, MeshPart& part, PropertyCollector& properties) {
         VertexWelder welder(part.mesh.points, 0);
         for (const GlbValue& primitive : glb_.array(mesh, "primitives")) {
             if (!has_triangles(primitive)) continue;
@@ -257,11 +283,14 @@ private:
             const std::vector<Point3d>& points = points_of(*positions);
             const std::vector<std::uint32_t> indices = corners_of(primitive, points.size());
             const std::uint32_t material = material_of(primitive);
+            const auto attributes = attributes_of(primitive, points.size());
             std::array<std::uint32_t, 3> t{};
             for (std::size_t i = 0; i < indices.size(); ++i) {
                 check_stop();
                 if (indices[i] >= points.size())
                     glb_.fail(primitive, "there is no vertex " + std::to_string(indices[i]));
+                if (attributes)
+                    attributes->collect(indices[i], part.mesh.corners.size() + i % 3, properties);
                 t[i % 3] = welder.vertex(points[indices[i]]);
                 if (i % 3 != 2) continue;
                 part.mesh.add_face(t);
@@ -283,7 +312,8 @@ private:
     }
 
     /// One mesh as the extension gives it; its primitives say which triangles have which material.
-    void read_manifold(const GlbValue& mesh, const GlbValue& manifold, MeshPart& part) {
+    void read_manifold(const GlbValue& mesh, const GlbValue& manifold, MeshPart& part,
+                       PropertyCollector& properties) {
         const auto primitive = glb_.object(manifold, "manifoldPrimitive");
         if (!primitive) glb_.fail(manifold, "has no manifoldPrimitive");
         if (!has_triangles(*primitive)) glb_.fail(*primitive, "has no triangles");
@@ -293,6 +323,8 @@ private:
                                                   *primitive, "SCALAR", true);
         check_corners(accessor.count, *primitive);
         std::vector<std::uint32_t> indices = glb_indices(glb_, accessor);
+        const std::vector<std::uint32_t> unmerged =
+            options_.properties ? indices : std::vector<std::uint32_t>();
         merge(manifold, indices);
         part.mesh.points = glb_points(glb_, *positions);
         for (std::size_t i = 0; i < indices.size(); i += 3) {
@@ -304,7 +336,8 @@ private:
             part.mesh.add_triangle(indices[i], indices[i + 1], indices[i + 2]);
         }
         part.materials.assign(part.mesh.face_count(), no_material);
-        for (const GlbValue& p : glb_.array(mesh, "primitives")) color_range(p, accessor, part);
+        for (const GlbValue& p : glb_.array(mesh, "primitives"))
+            color_range(p, accessor, part, unmerged, properties);
     }
 
     void merge(const GlbValue& manifold, std::vector<std::uint32_t>& indices) {
@@ -324,11 +357,14 @@ private:
         }
     }
 
-    /// Gives the triangles of a primitive its material; they are a part of the same view.
-    void color_range(const GlbValue& primitive, const GlbAccessor& all, MeshPart& part) const {
+    /// Gives the triangles of a primitive its material and the properties of its vertices; they are
+    /// a part of the same view.
+    void color_range(const GlbValue& primitive, const GlbAccessor& all, MeshPart& part,
+                     const std::vector<std::uint32_t>& unmerged,
+                     PropertyCollector& properties) const {
         if (!has_triangles(primitive)) glb_.fail(primitive, "is not of triangles");
         const std::uint32_t material = material_of(primitive);
-        if (material == no_material) return;
+        if (material == no_material && !options_.properties) return;
         const GlbAccessor own =
             glb_accessor(glb_, glb_.required_count(primitive, "indices"), primitive, "SCALAR");
         const std::uint64_t size = 3 * all.stride;
@@ -340,9 +376,20 @@ private:
         if (first > part.materials.size() || count > part.materials.size() - first)
             glb_.fail(primitive, "its indices are no part of the manifold's");
         std::fill_n(part.materials.begin() + static_cast<std::ptrdiff_t>(first), count, material);
+        const auto positions = options_.properties ? positions_of(primitive) : std::nullopt;
+        if (!positions) return;
+        const auto attributes = attributes_of(primitive, positions->count);
+        for (std::uint64_t i = 3 * first; i < 3 * (first + count); ++i) {
+            if (unmerged[i] >= positions->count)
+                glb_.fail(primitive, "there is no vertex " + std::to_string(unmerged[i]));
+            attributes->collect(unmerged[i], i, properties);
+        }
     }
 
     GlbDocument glb_;
+    const ReadOptions& options_;
+    BesideFiles files_;
+    GlbTextures textures_;
     ModelReport& report_;
     Model model_;
     std::set<std::uint64_t> met_;
@@ -351,14 +398,15 @@ private:
     std::uint64_t corners_ = 0;
     std::uint64_t vertices_ = 0;
     std::uint64_t faces_ = 0;
+    std::uint64_t numbers_ = 0;
 };
 
 }  // namespace
 
-Model read_glb(std::string_view data, const std::string& name, const ReadLimits& limits,
+Model read_glb(std::string_view data, const std::string& name, const ReadOptions& options,
                ModelReport& report) {
-    const InputText source(data, name, limits, true);
-    return GlbReader(source, report).read();
+    const InputText source(data, name, options.limits, true);
+    return GlbReader(source, options, report).read();
 }
 
 }  // namespace trisect::detail

@@ -16,11 +16,11 @@
 namespace trisect::detail {
 
 [[nodiscard]] Model read_three_mf(std::string_view data, const std::string& name,
-                                  const ReadLimits& limits, ModelReport& report);
+                                  const ReadOptions& options, ModelReport& report);
 [[nodiscard]] Model read_amf(std::string_view data, const std::string& name,
                              const ReadLimits& limits, ModelReport& report);
 [[nodiscard]] Model read_glb(std::string_view data, const std::string& name,
-                             const ReadLimits& limits, ModelReport& report);
+                             const ReadOptions& options, ModelReport& report);
 
 [[nodiscard]] Model read_step(std::string_view data, const std::string& name,
                               const ReadLimits& limits, ModelReport& report);

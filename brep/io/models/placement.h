@@ -13,4 +13,10 @@ namespace trisect::detail {
 void add_placed(ModelPart& part, const PolygonMesh& mesh, const ExactAffine& placement,
                 ModelReport& report);
 
+/// The properties of a mesh that is placed so: corners come in the order that add_placed gives
+/// them, and normals turn with the faces, which leaves them of some length.
+[[nodiscard]] CornerProperties placed_properties(const CornerProperties& properties,
+                                                 const PolygonMesh& mesh,
+                                                 const ExactAffine& placement);
+
 }  // namespace trisect::detail

@@ -6,14 +6,17 @@
 // What an element is depends on the element around it. Elements of other namespaces, and what is in
 // them, are ignored, as the specification has it; those that must not be ignored are listed in
 // `requiredextensions`, and refused there. Of a triangle's properties the first corner's counts.
-// Textures and mixtures are no materials: their triangles have none.
+// Textures and mixtures are no materials: their triangles have none; with properties
+// (three_mf_looks.h) all of them count.
 #include <trisect/brep/io/models/three_mf_part.h>
 
 #include <trisect/brep/io/formats/mesh_builder.h>
+#include <trisect/brep/io/models/three_mf_looks.h>
 #include <trisect/brep/io/models/three_mf_names.h>
 #include <trisect/brep/io/models/xml_reader.h>
 #include <trisect/kernel/error.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -28,6 +31,9 @@ enum class Kind : std::uint8_t {
     Build,
     BaseMaterials,
     ColorGroup,
+    Texture,
+    TextureGroup,
+    Mixtures,
     Object,
     Mesh,
     Vertices,
@@ -67,9 +73,22 @@ Kind kind_of_core(Kind around, std::string_view name) {
     }
 }
 
-Kind kind_of(Kind around, const XmlElement& element) {
+Kind kind_of_looks(Kind around, std::string_view name) {
+    if (around == Kind::TextureGroup) return name == "tex2coord" ? Kind::Leaf : Kind::Ignored;
+    if (around == Kind::Mixtures) return name == "multi" ? Kind::Leaf : Kind::Ignored;
+    if (around != Kind::Resources) return Kind::Ignored;
+    if (name == "texture2d") return Kind::Texture;
+    if (name == "texture2dgroup") return Kind::TextureGroup;
+    return name == "multiproperties" ? Kind::Mixtures : Kind::Ignored;
+}
+
+Kind kind_of(Kind around, const XmlElement& element, bool with_properties) {
     if (element.space == three_mf_core) return kind_of_core(around, element.name);
     if (element.space != three_mf_materials) return Kind::Ignored;
+    if (with_properties) {
+        const Kind kind = kind_of_looks(around, element.name);
+        if (kind != Kind::Ignored) return kind;
+    }
     if (around == Kind::Resources && element.name == "colorgroup") return Kind::ColorGroup;
     return around == Kind::ColorGroup && element.name == "color" ? Kind::Leaf : Kind::Ignored;
 }
@@ -96,14 +115,16 @@ std::optional<ModelColor> color_of(std::string_view text) {
 
 class Parser final : public XmlHandler {
 public:
-    explicit Parser(ThreeMfPart& part) : part_(part), source_(part.source) {}
+    Parser(ThreeMfPart& part, bool with_properties) : part_(part), source_(part.source) {
+        if (with_properties) looks_.emplace(part);
+    }
 
     void declare(std::string_view prefix, std::string_view uri) override {
         prefixes_[std::string(prefix)] = uri;
     }
 
     void begin(const XmlElement& element) override {
-        const Kind kind = kind_of(around_.back(), element);
+        const Kind kind = kind_of(around_.back(), element, looks_.has_value());
         if (around_.back() == Kind::Document && kind != Kind::Model)
             source_.fail(element.at, "<" + std::string(element.name) + "> is no model of 3MF");
         if (kind == Kind::Leaf)
@@ -131,6 +152,11 @@ private:
         if (kind == Kind::Model) begin_model(element);
         if (kind == Kind::Build) part_.has_build = true;
         if (kind == Kind::BaseMaterials || kind == Kind::ColorGroup) begin_materials(element);
+        if (kind == Kind::TextureGroup || kind == Kind::Mixtures) begin_materials(element);
+        if (kind == Kind::ColorGroup && looks_) looks_->begin_colors(group_);
+        if (kind == Kind::Texture) looks_->add_texture(element);
+        if (kind == Kind::TextureGroup) looks_->begin_coordinates(group_, element);
+        if (kind == Kind::Mixtures) looks_->begin_mixtures(group_, element);
         if (kind == Kind::Object) begin_object(element);
         if (kind == Kind::Mesh) begin_mesh(element);
     }
@@ -152,8 +178,12 @@ private:
             case Kind::BaseMaterials:
                 return material(std::string(element.attribute("name").value_or("")),
                                 element.attribute("displaycolor"), element);
+            case Kind::TextureGroup:
+                return looks_->add_coordinates(element);
+            case Kind::Mixtures:
+                return looks_->add_mixture(element);
             default:
-                return material({}, element.required(source_, "color"), element);
+                return colour(element);
         }
     }
 
@@ -184,6 +214,17 @@ private:
     void begin_materials(const XmlElement& element) {
         group_ = index(element.required(source_, "id"), "the number of a resource", element);
         new_resource(group_, element);
+    }
+
+    /// Of a group of colours: those of corners, or materials.
+    void colour(const XmlElement& element) {
+        const std::string_view text = element.required(source_, "color");
+        const auto color = color_of(text);
+        if (!color) source_.fail(element.at, shown_word(text) + ", read as a colour, is none");
+        if (looks_)
+            looks_->add_color(*color);
+        else
+            material({}, text, element);
     }
 
     void material(std::string name, std::optional<std::string_view> color,
@@ -228,6 +269,7 @@ private:
     void end_mesh() {
         object_.mesh = mesh_->finish();
         mesh_.reset();
+        if (looks_) object_.properties = looks_->finish_mesh(object_.mesh.corners.size());
         const auto& m = object_.materials;
         if (std::all_of(m.begin(), m.end(), [](std::uint32_t i) { return i == no_material; }))
             object_.materials.clear();
@@ -257,7 +299,27 @@ private:
             if (const auto own = element.attribute("pid"))
                 group = index(*own, "the number of a resource", element);
         }
-        object_.materials.push_back(material_index(group, number, element));
+        if (looks_)
+            object_.materials.push_back(look(group, number, element));
+        else
+            object_.materials.push_back(material_index(group, number, element));
+    }
+
+    /// Collects what the corners have, and returns the material.
+    std::uint32_t look(std::optional<std::uint64_t> group, std::uint64_t number,
+                       const XmlElement& element) {
+        if (!group) return no_material;
+        std::array<std::uint64_t, 3> numbers{number, number, number};
+        if (element.attribute("p1")) {
+            if (const auto p2 = element.attribute("p2"))
+                numbers[1] = index(*p2, "the index of a property", element);
+            if (const auto p3 = element.attribute("p3"))
+                numbers[2] = index(*p3, "the index of a property", element);
+        }
+        const auto base = [&](std::uint64_t id, std::uint64_t n) {
+            return material_index(id, n, element);
+        };
+        return looks_->triangle(*group, numbers, 3 * object_.materials.size(), base, element);
     }
 
     std::uint32_t material_index(std::optional<std::uint64_t> group, std::uint64_t number,
@@ -304,14 +366,15 @@ private:
     std::optional<std::uint64_t> object_group_;
     std::uint64_t object_index_ = 0;
     std::optional<MeshBuilder> mesh_;
+    std::optional<ThreeMfLooks> looks_;  ///< with properties
 };
 
 }  // namespace
 
 std::unique_ptr<ThreeMfPart> parse_three_mf_part(std::string text, const std::string& name,
-                                                 const ReadLimits& limits) {
+                                                 const ReadLimits& limits, bool with_properties) {
     auto part = std::make_unique<ThreeMfPart>(std::move(text), name, limits);
-    Parser parser(*part);
+    Parser parser(*part, with_properties);
     read_xml(part->source, parser);
     return part;
 }

@@ -24,12 +24,20 @@ struct ThreeMfUse {
     const char* at = nullptr;
 };
 
+/// A picture: an entry of the package.
+struct ThreeMfTexture {
+    std::string path;
+    ModelTexture texture;  ///< without bytes
+    const char* at = nullptr;
+};
+
 struct ThreeMfObject {
     std::string name;
     bool is_support = false;
     bool has_mesh = false;
     PolygonMesh mesh;
     std::vector<std::uint32_t> materials;  ///< indices into ThreeMfPart::materials
+    CornerProperties properties;
     std::vector<ThreeMfUse> components;
     const char* at = nullptr;
 };
@@ -45,14 +53,17 @@ struct ThreeMfPart {
     InputText source;
     std::string unit = "millimeter";
     std::vector<ModelMaterial> materials;
+    std::vector<ThreeMfTexture> textures;
     std::map<std::uint64_t, ThreeMfObject> objects;
     std::vector<ThreeMfUse> items;
     bool has_build = false;
 };
 
-/// Parses the text of a part. \throw InputError, LimitError, UnsupportedError
+/// Parses the text of a part; `with_properties`: colours and textures of corners are no materials.
+/// \throw InputError, LimitError, UnsupportedError
 [[nodiscard]] std::unique_ptr<ThreeMfPart> parse_three_mf_part(std::string text,
                                                                const std::string& name,
-                                                               const ReadLimits& limits);
+                                                               const ReadLimits& limits,
+                                                               bool with_properties);
 
 }  // namespace trisect::detail

@@ -84,9 +84,13 @@ void add_up(std::uint64_t& sum, std::uint64_t more) {
 
 class Package {
 public:
-    Package(std::string_view data, const std::string& name, const ReadLimits& limits,
+    Package(std::string_view data, const std::string& name, const ReadOptions& options,
             ModelReport& report)
-        : name_(name), limits_(limits), archive_(data, name, limits), report_(report) {}
+        : name_(name),
+          limits_(options.limits),
+          with_properties_(options.properties),
+          archive_(data, name, options.limits),
+          report_(report) {}
 
     Model read() {
         const std::string entry = model_entry(archive_, name_, limits_);
@@ -101,13 +105,16 @@ public:
             if (target.object->is_support) continue;
             ModelPart made;
             made.name = target.object->name;
+            pieces_.clear();
             place(target, placement_of(root, item), made);
+            made.properties = joined_pieces();
             if (std::all_of(made.materials.begin(), made.materials.end(),
                             [](std::uint32_t m) { return m == no_material; }))
                 made.materials.clear();
             model.parts.push_back(std::move(made));
         }
         model.materials = std::move(materials_);
+        model.textures = std::move(textures_);
         return model;
     }
 
@@ -115,6 +122,7 @@ private:
     struct Loaded {
         std::unique_ptr<ThreeMfPart> part;
         std::uint32_t first_material = 0;  ///< its materials follow those of parts before it
+        std::size_t first_texture = 0;
     };
     struct Target {
         const Loaded* loaded;
@@ -132,11 +140,33 @@ private:
             throw InputError(FilePlace{name_, 0, 0, 0}, message);
         }
         Loaded& made = parts_[entry];
-        made.part = parse_three_mf_part(std::move(*text), archive_.name_of(entry), limits_);
+        made.part = parse_three_mf_part(std::move(*text), archive_.name_of(entry), limits_,
+                                        with_properties_);
+        read_textures(*made.part, made.first_texture = textures_.size());
         made.first_material = static_cast<std::uint32_t>(materials_.size());
-        const auto& materials = made.part->materials;
-        materials_.insert(materials_.end(), materials.begin(), materials.end());
+        for (ModelMaterial material : made.part->materials) {
+            if (material.texture != no_texture)
+                material.texture += static_cast<std::uint32_t>(made.first_texture);
+            materials_.push_back(std::move(material));
+        }
         return made;
+    }
+
+    void read_textures(const ThreeMfPart& part, std::size_t first) {
+        textures_.reserve(first + part.textures.size());
+        for (const ThreeMfTexture& texture : part.textures) {
+            textures_.push_back(texture.texture);
+            auto bytes = archive_.read(entry_of(texture.path, part.source, texture.at));
+            if (!bytes)
+                part.source.fail(texture.at, "there is no entry " + shown_word(texture.path));
+            textures_.back().bytes = *std::move(bytes);
+        }
+    }
+
+    CornerProperties joined_pieces() const {
+        std::vector<PropertyPiece> all;
+        for (const auto& [properties, corners] : pieces_) all.push_back({&properties, corners});
+        return joined_properties(all);
     }
 
     Target target_of(const Loaded& from, const ThreeMfUse& use) {
@@ -205,6 +235,13 @@ private:
         if (object.is_support) return;
         if (object.has_mesh) {
             add_placed(made, object.mesh, placement, report_);
+            numbers_ += object.properties.values.size();
+            if (numbers_ > limits_.property_numbers)
+                target.loaded->part->source.fail_limit(
+                    object.at, "components amount to more numbers at corners than the limit");
+            if (with_properties_)
+                pieces_.emplace_back(placed_properties(object.properties, object.mesh, placement),
+                                     object.mesh.corners.size());
             for (const std::uint32_t m : object.materials)
                 made.materials.push_back(m == no_material ? m : target.loaded->first_material + m);
             made.materials.resize(made.mesh.face_count(), no_material);
@@ -217,19 +254,23 @@ private:
 
     const std::string& name_;
     const ReadLimits& limits_;
+    bool with_properties_;
     ZipArchive archive_;
     ModelReport& report_;
     std::map<std::string, Loaded> parts_;
     std::vector<ModelMaterial> materials_;
+    std::vector<ModelTexture> textures_;
+    std::vector<std::pair<CornerProperties, std::size_t>> pieces_;  ///< of the item being placed
+    std::uint64_t numbers_ = 0;
     std::map<const ThreeMfObject*, Extent> extents_;
     Extent total_{0, 0, 0, 0, false};
 };
 
 }  // namespace
 
-Model read_three_mf(std::string_view data, const std::string& name, const ReadLimits& limits,
+Model read_three_mf(std::string_view data, const std::string& name, const ReadOptions& options,
                     ModelReport& report) {
-    return Package(data, name, limits, report).read();
+    return Package(data, name, options, report).read();
 }
 
 }  // namespace trisect::detail
