@@ -37,11 +37,13 @@ struct BooleanResult {
     std::size_t divided = 0;  ///< triangles more, since edges lie in faces
     EvaluateReport report;
     EvaluateCounters counters;
+    Json properties;  ///< what the output has; null: not asked for
 };
 
 /// Whether faces are wanted, or something that only faces have.
 bool needs_brep(const BooleanOptions& options) {
-    return options.faces || options.source_faces || options.repair || !options.boundary.empty();
+    return options.faces || options.source_faces || options.repair || !options.boundary.empty() ||
+           options.operands.properties;
 }
 
 DescriptionOptions description_options(const Session& session, const BooleanOptions& options) {
@@ -50,7 +52,7 @@ DescriptionOptions description_options(const Session& session, const BooleanOpti
 
 AssembleOptions assemble_options(const BooleanOptions& options) {
     AssembleOptions assembly;
-    assembly.maximal_faces = !options.source_faces;
+    assembly.maximal_faces = !options.source_faces && !options.operands.properties;
     return assembly;
 }
 
@@ -74,6 +76,19 @@ bool divide_contacts(PolygonMesh& mesh, std::vector<FaceSource>& sources, MeshFo
         return false;
     result.divided = mesh.face_count() - before;
     return true;
+}
+
+/// Channels of corners, materials and pictures.
+Json properties_json(const Model& model) {
+    Json out;
+    out["channels"] = Json::array();
+    for (const ModelPart& part : model.parts)
+        for (const PropertyChannel& channel : part.properties.channels)
+            out["channels"].push_back(channel.name);
+    out["materials"] = Json::array();
+    for (const ModelMaterial& material : model.materials) out["materials"].push_back(material.name);
+    out["textures"] = model.textures.size();
+    return out;
 }
 
 /// By faces: assembles, certifies or repairs, and writes.
@@ -111,6 +126,14 @@ void deliver_brep(Session& session, const BooleanOptions& options,
         if (format == MeshFormat::Step && !result.rounding) {
             mesh = output_polygons(brep, format, &map);
             note_uneven(session, options, mesh);
+        }
+        if (options.operands.properties) {
+            Model model =
+                property_model(std::move(mesh), map.source, operands, options.operation, format);
+            result.properties = properties_json(model);
+            result.written =
+                write_output_model(session, options.output, format, std::move(model), true);
+            return;
         }
         // What a repair moved has no operands any more.
         result.written =
@@ -171,7 +194,8 @@ void deliver_native(Session& session, const BooleanOptions& options, const Solid
 void require_mesh_output(const BooleanOptions& options) {
     if (needs_brep(options))
         throw UsageError(options.output +
-                         ": --faces, --source-faces, --repair and --boundary are for meshes");
+                         ": --faces, --source-faces, --repair, --properties and --boundary are for "
+                         "meshes");
 }
 
 Json document_of(const Session& session, const BooleanOptions& options,
@@ -185,6 +209,10 @@ Json document_of(const Session& session, const BooleanOptions& options,
     document["output"]["file"] = options.output;
     if (!options.boundary.empty()) document["output"]["boundary"] = options.boundary;
     document["output"].update(to_json(result.description));
+    if (options.operands.properties) {
+        document["output"]["properties"] = result.properties;
+        document["output"]["properties"]["left_out"] = result.written.left_out;
+    }
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
     document["divided"] = result.divided;
@@ -242,6 +270,10 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
         "--repair", options.repair,
         "move what rounding lets intersect until the result is certified; exit code 1 "
         "if that fails");
+    command->add_flag("--properties", options.operands.properties,
+                      "keep materials, textures, texture coordinates, normals and colours of "
+                      "corners of OBJ, PLY, "
+                      "GLB and 3MF, in an output of one of these");
     add_slab_options(*command, options);
     add_operand_options(*command, options.operands);
     return command;
@@ -261,6 +293,14 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
     const bool is_native = has_native_name(options.output);
     const MeshFormat format = is_native ? MeshFormat::Off : output_format(session, options.output);
     if (is_native) require_mesh_output(options);
+    if (options.operands.properties) {
+        check_holds_properties(options.output, format);
+        if (options.repair)
+            throw UsageError(
+                "--properties: not with --repair, which moves corners off their faces");
+        if (options.faces)
+            throw UsageError("--properties: not with --faces, which joins faces of operands");
+    }
     check_outputs(session, {options.output, options.boundary});
     const bool by_faces = needs_brep(options) || format == MeshFormat::Step;
     session.plan(by_faces && options.certificate ? 6 : 5);

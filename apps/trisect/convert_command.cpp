@@ -135,10 +135,15 @@ Outcome run_convert_to_native(Session& session, const ConvertOptions& options) {
 Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
     const MeshFormat format = output_format(session, options.output);
     check_outputs(session, {options.output});
+    if (options.properties) {
+        check_holds_properties(options.output, format);
+        if (has_transform(options))
+            throw UsageError("--properties: not with a transform, which would not turn normals");
+    }
     const ExactMap map = map_of(options);
     session.plan(3);
-    InputModel input =
-        session.stage("read", [&] { return read_input_model(session, options.input); });
+    InputModel input = session.stage(
+        "read", [&] { return read_input_model(session, options.input, options.properties); });
     Model& model = input.model;
     note_model(session, options.input, model.unit, input.report);
     const RoundingReport moved = session.stage("transform", [&] { return apply(map, model); });
@@ -174,7 +179,8 @@ Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
         note_rounding(session, report, options.output);
     }
     const WriteReport written = session.stage("write", [&] {
-        return write_output_model(session, options.output, format, std::move(model));
+        return write_output_model(session, options.output, format, std::move(model),
+                                  options.properties);
     });
     out.document["written"] = written_json(written);
     out.document["seconds"] = session.seconds();
@@ -191,6 +197,9 @@ void add_convert_command(CLI::App& app, ConvertOptions& options) {
     command->add_option("A", options.input, "mesh file, or native file (.trisect)")->required();
     command->add_option("-o,--output", options.output, "result; '-' is the standard output")
         ->required();
+    command->add_flag("--properties", options.properties,
+                      "keep materials, textures, texture coordinates, normals and colours of "
+                      "corners of OBJ, PLY, GLB and 3MF, in one of these");
     add_transform_options(*command, options);
 }
 

@@ -82,6 +82,8 @@ void note_model(Session& session, const std::string& name, const std::string& un
         session.note(fmt::format("{}: {} vertices rounded by transforms in the file, by at most {}",
                                  name, placed.rounded_vertices, number_text(placed.largest_move)));
     }
+    for (const std::string& remark : placed.remarks)
+        session.note(fmt::format("{}: {}", name, remark));
     if (placed.off_plane_corners != 0) {
         session.note(fmt::format(
             "{}: {} corners are farther from the planes of their faces than the file's "

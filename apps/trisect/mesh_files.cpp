@@ -5,10 +5,13 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/whole_faces.h>
 #include <trisect/bsp/native_file.h>
+#include <trisect/bsp/property_mesh.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 
 #include "values.h"
 
@@ -75,16 +78,37 @@ bool has_only_triangles(const PolygonMesh& mesh) {
 
 /// The same surface in triangles: polygons are cut by exact rules on the lattice, which changes no
 /// coordinate; where the lattice cannot hold them all, cutting is refused rather than rounding.
-PolygonMesh triangulated(const PolygonMesh& mesh) {
+ImportedMesh cut_into_triangles(const PolygonMesh& mesh) {
     ImportOptions options;
     options.require_closed = false;
-    const ImportedMesh imported = import_mesh(mesh, options);
+    ImportedMesh imported = import_mesh(mesh, options);
     if (!imported.report.lattice.lossless) {
         throw UnsupportedError(
             "this format holds no such polygons, and the coordinates span too many "
             "bits to cut the polygons of this mesh exactly");
     }
-    return plain_mesh(imported.mesh);
+    return imported;
+}
+
+PolygonMesh triangulated(const PolygonMesh& mesh) {
+    return plain_mesh(cut_into_triangles(mesh).mesh);
+}
+
+/// Each triangle has what its polygon has.
+void cut_with_properties(ModelPart& part) {
+    const LatticeMesh cut = cut_into_triangles(part.mesh).mesh;
+    std::vector<FaceSource> source;
+    std::vector<std::uint32_t> materials;
+    for (std::uint32_t t = 0; t < cut.triangles.size(); ++t) {
+        source.push_back({0, cut.face_of(t)});
+        if (!part.materials.empty()) materials.push_back(part.materials[cut.face_of(t)]);
+    }
+    PropertyMesh made =
+        with_properties(plain_mesh(cut), std::move(source),
+                        std::array{PropertyOperand{0, &part.mesh, &part.properties}});
+    part.properties = std::move(made.properties);
+    part.mesh = std::move(made.mesh);
+    part.materials = std::move(materials);
 }
 
 /// The mesh with these faces in triangles, which come last, with points of their own.
@@ -123,7 +147,7 @@ void write_native_output(Session& session, const std::string& name, const Solid&
     session.write_output(name, native_bytes(solid), OutputSafety::Flushed);
 }
 
-InputModel read_input_model(const Session& session, const std::string& name) {
+InputModel read_input_model(const Session& session, const std::string& name, bool properties) {
     InputModel out;
     if (has_native_name(name)) {
         out.model = model_of(read_native(name).to_mesh());
@@ -131,7 +155,10 @@ InputModel read_input_model(const Session& session, const std::string& name) {
     }
     const InputFile file = input_file(session, name);
     out.format = file.format;
-    out.model = read_model(file.bytes.view(), file.format, file.name, {}, &out.report);
+    ReadOptions options;
+    options.properties = properties;
+    if (name != "-") options.folder = std::filesystem::path(name).parent_path();
+    out.model = read_model(file.bytes.view(), file.format, file.name, options, &out.report);
     return out;
 }
 
@@ -171,6 +198,15 @@ ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name
     return with_name(name, [&] { return validate(mesh, options); });
 }
 
+void check_holds_properties(const std::string& name, MeshFormat format) {
+    if (!holds_properties(format))
+        throw UnsupportedError(fmt::format(
+            "{}: {} holds no properties of corners and no textures; OBJ, PLY, GLB and 3MF do", name,
+            to_string(format)));
+    if (name == "-" && format == MeshFormat::Obj)
+        throw UsageError("OBJ has its materials in a file beside it: not on the standard output");
+}
+
 MeshFormat output_format(const Session& session, const std::string& name) {
     const CommonOptions& common = session.options();
     if (name == "-" && common.json) {
@@ -200,22 +236,38 @@ FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
     return format_mesh(cut ? triangulated(mesh) : mesh, options, name);
 }
 
-FormattedMesh format_output_model(const std::string& name, MeshFormat format, Model model) {
-    if (!holds_models(format)) return format_output_mesh(name, format, one_mesh(std::move(model)));
+FormattedMesh format_output_model(const std::string& name, MeshFormat format, Model model,
+                                  bool properties) {
+    if (!holds_models(format) && !properties)
+        return format_output_mesh(name, format, one_mesh(std::move(model)));
     if (format == MeshFormat::Step) cut_uneven_faces(model);
     for (ModelPart& part : model.parts) {
         if (!holds_triangles_only(format) || has_only_triangles(part.mesh)) continue;
-        part.mesh = triangulated(part.mesh);
-        part.materials.clear();
+        if (properties) {
+            cut_with_properties(part);
+        } else {
+            part.mesh = triangulated(part.mesh);
+            part.materials.clear();
+        }
     }
     WriteOptions options;
     options.format = format;
+    options.properties = properties;
+    if (properties && !holds_models(format))
+        refer_to_pictures_in(model, std::filesystem::path(name).parent_path());
     return format_model(model, options, name);
 }
 
 WriteReport write_output_mesh(Session& session, const std::string& name,
                               const FormattedMesh& formatted) {
+    if (name == "-" && !formatted.files.empty())
+        throw UsageError("pictures are files beside the output: not on the standard output");
+    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    for (const SideFile& file : formatted.files)
+        session.write_output((folder / file.name).string(), file.bytes);
     session.write_output(name, formatted.bytes);
+    for (const std::string& what : formatted.report.left_out)
+        session.note(fmt::format("{}: {}; it is left out", name, what));
     if (!formatted.report.lossless) {
         session.note(fmt::format(
             "{}: {} vertices rounded to the floats of this format, by at most {}", name,
@@ -230,8 +282,9 @@ WriteReport write_output_mesh(Session& session, const std::string& name, MeshFor
 }
 
 WriteReport write_output_model(Session& session, const std::string& name, MeshFormat format,
-                               Model model) {
-    return write_output_mesh(session, name, format_output_model(name, format, std::move(model)));
+                               Model model, bool properties) {
+    return write_output_mesh(session, name,
+                             format_output_model(name, format, std::move(model), properties));
 }
 
 PolygonMesh output_polygons(const Brep& brep, MeshFormat format, MeshMap* map) {

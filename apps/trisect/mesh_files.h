@@ -53,7 +53,9 @@ struct InputModel {
 };
 
 /// "-" is the standard input, whose format is that of --format or else shown by its content.
-[[nodiscard]] InputModel read_input_model(const Session& session, const std::string& name);
+/// `properties`: also materials, textures and properties of corners, as far as there are any.
+[[nodiscard]] InputModel read_input_model(const Session& session, const std::string& name,
+                                          bool properties = false);
 
 /// The same as one mesh of all parts, which meets itself where they do.
 [[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);
@@ -78,6 +80,10 @@ void check_standard_input(std::span<const std::string> names);
 [[nodiscard]] ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
                                               const ValidateOptions& options);
 
+/// That `name` can hold properties in this format; checked before the work begins.
+/// \throw UnsupportedError, UsageError
+void check_holds_properties(const std::string& name, MeshFormat format);
+
 /// The format in which `name` will be written; checked before the work begins.
 /// \throw UsageError when nothing tells it, or when a mesh and --json want the standard output.
 [[nodiscard]] MeshFormat output_format(const Session& session, const std::string& name);
@@ -86,15 +92,16 @@ void check_standard_input(std::span<const std::string> names);
 /// planar. For any thread.
 [[nodiscard]] FormattedMesh format_output_mesh(const std::string& name, MeshFormat format,
                                                const PolygonMesh& mesh);
-/// The same. Faces that must be cut lose the materials of their part.
+/// The same. Faces that must be cut lose the materials of their part; with properties they keep
+/// all that they have.
 [[nodiscard]] FormattedMesh format_output_model(const std::string& name, MeshFormat format,
-                                                Model model);
+                                                Model model, bool properties = false);
 /// Writes them, and remarks what the format changed.
 WriteReport write_output_mesh(Session& session, const std::string& name,
                               const FormattedMesh& formatted);
 /// Both.
 WriteReport write_output_model(Session& session, const std::string& name, MeshFormat format,
-                               Model model);
+                               Model model, bool properties = false);
 WriteReport write_output_mesh(Session& session, const std::string& name, MeshFormat format,
                               const PolygonMesh& mesh);
 

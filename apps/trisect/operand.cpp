@@ -59,6 +59,7 @@ struct ReadOperand {
     EmbeddingFindings findings;
     std::optional<Brep> brep;  ///< of an exact boundary
     std::optional<NativeFile> native;
+    std::shared_ptr<Model> model;  ///< with properties
 };
 
 ReadOperand read_native_operand(const Session& session, const std::string& name) {
@@ -92,12 +93,25 @@ ReadOperand read_exact_operand(const Session& session, const std::string& name,
     return out;
 }
 
+/// The same with one part of all.
+std::shared_ptr<Model> one_part_model(Model&& model) {
+    auto out = std::make_shared<Model>(std::move(model));
+    if (out->parts.size() == 1) return out;
+    ModelPart all = merged_part(*out);
+    out->parts.clear();
+    out->parts.push_back(std::move(all));
+    return out;
+}
+
 ReadOperand read_mesh_operand(const Session& session, const std::string& name,
                               const OperandOptions& options) {
-    InputModel input = read_input_model(session, name);
+    InputModel input = read_input_model(session, name, options.properties);
     const std::string unit = input.model.unit;
     const std::size_t parts = input.model.parts.size();
-    const PolygonMesh mesh = one_mesh(std::move(input.model));
+    std::shared_ptr<Model> model;
+    if (options.properties) model = one_part_model(std::move(input.model));
+    const PolygonMesh own = model == nullptr ? one_mesh(std::move(input.model)) : PolygonMesh();
+    const PolygonMesh& mesh = model == nullptr ? own : model->parts.front().mesh;
     ImportedMesh imported = import_input(session, mesh, name);
     require_solid(imported, name, options);
     ReadOperand out;
@@ -106,6 +120,7 @@ ReadOperand read_mesh_operand(const Session& session, const std::string& name,
         out.facts["unit"] = unit.empty() ? Json() : Json(unit);
         out.facts["parts"] = parts;
     }
+    out.model = std::move(model);
     out.note = {name, std::move(imported.report), unit, input.report};
     out.findings.is_embedded = options.assume_embedded;
     if (!options.assume_embedded) out.findings = find_embedding(imported.mesh);
@@ -163,7 +178,7 @@ std::vector<Operand> read_operands(Session& session, std::span<const std::string
     notes.reserve(read.size());
     for (ReadOperand& r : read) {
         Solid solid = solid_of(r, options);
-        operands.push_back({std::move(solid), std::move(r.facts)});
+        operands.push_back({std::move(solid), std::move(r.facts), std::move(r.model)});
         notes.push_back(std::move(r.note));
     }
     note_imports(session, notes);

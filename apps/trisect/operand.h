@@ -3,8 +3,10 @@
 // Operand: an input of a boolean, as a solid with its report.
 #pragma once
 
+#include <trisect/brep/io/model.h>
 #include <trisect/bsp/solid.h>
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +19,8 @@ namespace trisect::app {
 struct Operand {
     Solid solid;
     Json facts;  ///< file, faces, triangles, lattice, what import changed
+    /// With OperandOptions::properties: of a mesh file one part, whose faces the solid's names are.
+    std::shared_ptr<Model> model = nullptr;
 };
 
 /// Reads and imports all inputs. The first one that bounds no solid ends the command.

@@ -47,6 +47,7 @@ struct OperandOptions {
     bool assume_embedded = false;
     EvaluateOptions::Winding winding = EvaluateOptions::Winding::Positive;
     EvaluateOptions::Lattices lattices = EvaluateOptions::Lattices::Round;
+    bool properties = false;  ///< keep properties of corners, materials and textures
 };
 
 struct BooleanOptions {
@@ -208,6 +209,7 @@ struct ConvertOptions {
     std::optional<std::array<double, 4>> rotate;  ///< axis and degrees
     std::optional<std::array<double, 3>> translate;
     std::optional<double> scale;
+    bool properties = false;
 };
 
 struct EvalOptions {

@@ -30,8 +30,8 @@ bool wants_slabs(const Session& session, const BooleanOptions& options) {
     if (options.slabs != 0 || options.resume || !options.pieces.empty()) return true;
     const CommonOptions& common = session.options();
     if (common.max_memory == 0 || options.faces || options.source_faces || options.repair ||
-        options.exact || !options.boundary.empty() || common.lattice || common.format ||
-        common.input_format)
+        options.operands.properties || options.exact || !options.boundary.empty() ||
+        common.lattice || common.format || common.input_format)
         return false;
     SlabOptions asked;
     asked.operation = options.operation;
@@ -45,11 +45,12 @@ SlabOptions slab_options(const Session& session, const BooleanOptions& options) 
     const CommonOptions& common = session.options();
     if (!is_slab_operation(options.operation))
         throw UsageError("--slabs: not for " + options.operation);
-    if (options.faces || options.source_faces || options.repair || options.exact ||
-        !options.boundary.empty() || common.lattice || common.format || common.input_format)
+    if (options.faces || options.source_faces || options.repair || options.operands.properties ||
+        options.exact || !options.boundary.empty() || common.lattice || common.format ||
+        common.input_format)
         throw UsageError(
-            "--slabs: not together with --faces, --source-faces, --repair, --exact, --boundary, "
-            "--lattice, --format and --input-format");
+            "--slabs: not together with --faces, --source-faces, --repair, --properties, --exact, "
+            "--boundary, --lattice, --format and --input-format");
     if (!can_join_into(options.output))
         throw UsageError(options.output + ": slabs are joined into .ply or .stl");
     check_outputs(session, {options.output});
