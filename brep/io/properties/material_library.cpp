@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MTL (Wavefront, Advanced Visualizer manual, appendix B). Words of options before the name of a
+// MTL (Wavefront, Advanced Visualizer manual, appendix B). `Tr` is passed over: to some programs it
+// is opacity, to others what is left of it. Words of options before the name of a
 // picture are taken by their number; names of pictures go to the end of the line, as they may have
 // blanks.
 #include <trisect/brep/io/properties/material_library.h>
@@ -29,8 +30,7 @@ public:
             if (keyword == "newmtl") {
                 current_ = &materials_[rest_of_line()];
                 *current_ = LibraryMaterial();
-            } else if (keyword == "Kd" || keyword == "d" || keyword == "Tr" ||
-                       keyword == "map_Kd") {
+            } else if (keyword == "Kd" || keyword == "d" || keyword == "map_Kd") {
                 if (current_ == nullptr)
                     source_.fail(keyword.data(), shown_word(keyword) + " before any material");
                 statement(keyword);
@@ -42,9 +42,8 @@ private:
     void statement(std::string_view keyword) {
         if (keyword == "map_Kd") return picture();
         if (keyword == "Kd") return diffuse();
-        if (text_.here() != nullptr && text_.at_line_end()) return;
-        const double number = text_.real("an opacity");
-        color()[3] = level(keyword == "d" ? number : 1 - number);
+        if (text_.at_line_end()) return;
+        color()[3] = level(text_.real("an opacity"));
     }
 
     ModelColor& color() {

@@ -106,7 +106,7 @@ TEST(ObjProperties, AreNotReadUnlessAsked) {
 TEST(ObjProperties, MaterialsAndPicturesOfLibraries) {
     const Folder folder;
     folder.write("a b.mtl",
-                 "newmtl red one\nKd 1 0 0\nd 0.5\nillum 2\nnewmtl pic\nKd 1 1 1\n"
+                 "newmtl red one\nKd 1 0 0\nd 0.5\nTr 1\nillum 2\nnewmtl pic\nKd 1 1 1\n"
                  "map_Kd -clamp on below/wood grain.png\n");
     folder.write("below/wood grain.png", "\x89PNG picture");
     folder.write("a.obj", "mtllib a b.mtl\n" + corners +
