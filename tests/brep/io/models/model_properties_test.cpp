@@ -111,6 +111,13 @@ TEST(ModelProperties, ThreeMfKeepsThem) {
     EXPECT_EQ(back.textures[0].wrap, model.textures[0].wrap);
 }
 
+// Names of OBJ files may be in any encoding.
+TEST(ModelProperties, NamesThatAreNoTextAreMadeOne) {
+    Model model = textured_sample(PropertyMeaning::Color);
+    model.materials[1].name = "a\xFFz\xC3\xA9\xED\xA0\x80";
+    EXPECT_EQ(written_and_read(model, MeshFormat::ThreeMf).materials[1].name, "a?z\xC3\xA9???");
+}
+
 TEST(ModelProperties, AreLeftOutUnlessAsked) {
     const Model model = textured_sample(PropertyMeaning::Color);
     WriteOptions options;
