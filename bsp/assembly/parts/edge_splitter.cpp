@@ -90,6 +90,8 @@ void EdgeSplitter::clear() {
     for (const Candidate& c : candidates_) rank_[as_index(c.point)] = -1;
     candidates_.clear();
     boxes_.clear();
+    known_.clear();
+    known_edges_.clear();
 }
 
 void EdgeSplitter::add_candidate(PointId p) {
@@ -127,14 +129,33 @@ void EdgeSplitter::sort_candidates() {
         rank_[as_index(candidates_[i].point)] = static_cast<std::int32_t>(i);
 }
 
+// Points of all edges that have looked stay in a row, those of the last one behind.
+EdgeSplitter::Inside EdgeSplitter::find_once(const BoundaryEdge& e) {
+    if (boxes_.is_empty()) {
+        inside_.clear();
+        find_inside(e);
+        return {e.from, 0, static_cast<std::uint32_t>(inside_.size())};
+    }
+    const auto [low, high] = std::minmax(e.from, e.to);
+    const Key128 ends{static_cast<std::uint64_t>(low), static_cast<std::uint64_t>(high)};
+    const auto [number, is_new] =
+        known_edges_.insert(ends, static_cast<std::int32_t>(known_.size()));
+    if (!is_new) return known_[as_index(number)];
+    const auto first = static_cast<std::uint32_t>(inside_.size());
+    find_inside(e);
+    return known_.emplace_back(
+        Inside{e.from, first, static_cast<std::uint32_t>(inside_.size()) - first});
+}
+
 void EdgeSplitter::find_inside(const BoundaryEdge& e) {
-    inside_.clear();
+    const std::size_t first = inside_.size();
     if (boxes_.is_empty()) {
         find_inside_sorted(e);
     } else {
         find_inside_boxes(e);
     }
-    if (inside_.size() > 1) sort_inside(e, separating_axis(bench_, e.from, e.to));
+    if (inside_.size() > first + 1)
+        sort_inside(e, separating_axis(bench_, e.from, e.to), std::span(inside_).subspan(first));
 }
 
 void EdgeSplitter::look_at(const BoundaryEdge& e, const Candidate& candidate) {
@@ -174,19 +195,22 @@ void EdgeSplitter::find_inside_boxes(const BoundaryEdge& e) {
         });
 }
 
-void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis) {
+void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const {
     const int direction = compare_along(bench_, e.from, e.to, axis);
-    std::sort(inside_.begin(), inside_.end(), [&](PointId p, PointId q) {
+    std::sort(inside.begin(), inside.end(), [&](PointId p, PointId q) {
         return p != q && compare_along(bench_, p, q, axis) == direction;
     });
 }
 
 void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out) {
     sort_candidates();
+    inside_.clear();
     for (const BoundaryEdge& e : edges) {
-        find_inside(e);
+        const Inside found = find_once(e);
         PointId from = e.from;
-        for (const PointId p : inside_) {
+        for (std::uint32_t i = 0; i < found.count; ++i) {
+            const std::uint32_t place = found.from == e.from ? i : found.count - 1 - i;
+            const PointId p = inside_[found.first + place];
             out.push_back({from, p, e.facet, e.line});
             from = p;
         }

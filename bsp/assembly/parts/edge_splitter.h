@@ -11,13 +11,15 @@
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
 /// Splits edges at the candidate vertices that lie inside them. Holds scratch memory.
 ///
 /// An edge looks at few candidates that are not near it: O(log n) boxes of a tree over them where
-/// they are many, else those whose range along the longest axis meets its own.
+/// they are many, else those whose range along the longest axis meets its own. Of many, edges with
+/// the same ends look once: mostly two facets have one.
 class EdgeSplitter {
 public:
     EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
@@ -31,11 +33,17 @@ public:
 private:
     using Candidate = VertexBoxes::Vertex;
     void sort_candidates();
+    struct Inside {
+        PointId from = -1;        // an end of the edge that has looked
+        std::uint32_t first = 0;  // of inside_
+        std::uint32_t count = 0;
+    };
+    [[nodiscard]] Inside find_once(const BoundaryEdge& e);
     void find_inside(const BoundaryEdge& e);
     void find_inside_sorted(const BoundaryEdge& e);
     void find_inside_boxes(const BoundaryEdge& e);
     void look_at(const BoundaryEdge& e, const Candidate& candidate);
-    void sort_inside(const BoundaryEdge& e, int axis);
+    void sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const;
 
     const Workbench& bench_;
     const std::vector<BoundaryFacet>& facets_;
@@ -44,7 +52,9 @@ private:
     std::vector<std::int32_t> rank_;  // by point: its place among the candidates, -1 is none
     std::size_t axis_ = 0;            // that they are sorted along
     double widest_ = 0;               // error of a candidate
-    std::vector<PointId> inside_;
+    std::vector<PointId> inside_;     // of the edges that have looked, each along its edge
+    std::vector<Inside> known_;       // of many candidates, by the numbers of known_edges_
+    FlatMap known_edges_;
 };
 
 }  // namespace trisect::detail

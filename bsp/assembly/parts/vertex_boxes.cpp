@@ -7,74 +7,160 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/support/wide_clones.h>
+
 namespace trisect::detail {
+
+namespace {
+
+constexpr std::uint32_t few = 8;  // vertices that are not parted
+
+}  // namespace
 
 void VertexBoxes::build(std::span<Vertex> vertices) {
     vertices_ = vertices;
-    boxes_.clear();
-    if (!vertices.empty()) add(0, static_cast<std::uint32_t>(vertices.size()));
+    nodes_.clear();
+    if (vertices.empty()) return;
+    std::array<double, 3> lo = vertices[0].c;
+    std::array<double, 3> hi = lo;
+    for (const Vertex& v : vertices)
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], v.c[k]);
+            hi[k] = std::max(hi[k], v.c[k]);
+        }
+    double largest = 0;
+    double extent = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        origin_[k] = lo[k] + (hi[k] - lo[k]) / 2;
+        largest = std::max({largest, std::fabs(lo[k]), std::fabs(hi[k])});
+        extent = std::max(extent, hi[k] - lo[k]);
+    }
+    // A float is off by 2^-24 of itself, the difference in doubles by 2^-53 of the coordinates.
+    rounding_ = 0x1p-23 * extent + 0x1p-51 * largest;
+    const auto count = static_cast<std::uint32_t>(vertices.size());
+    nodes_.reserve(2 + count / few);
+    static_cast<void>(add(0, count));
 }
 
-// Halves are of equal size, so the depth is that of a number's bits.
-void VertexBoxes::add(std::uint32_t begin, std::uint32_t end) {
-    constexpr std::uint32_t few = 8;
-    const std::size_t place = boxes_.size();
+// In the middle of their box: those of one plane across the axis stay together. Where that leaves
+// less than an eighth on one side, in two halves of a size; so the depth is some bits of a number.
+std::uint32_t VertexBoxes::parted_at(std::uint32_t begin, std::uint32_t end) {
     std::array<double, 3> lo = vertices_[begin].c;
     std::array<double, 3> hi = lo;
-    for (std::uint32_t i = begin; i < end; ++i)
+    for (std::uint32_t i = begin + 1; i < end; ++i)
         for (std::size_t k = 0; k < 3; ++k) {
             lo[k] = std::min(lo[k], vertices_[i].c[k]);
             hi[k] = std::max(hi[k], vertices_[i].c[k]);
         }
-    VertexBox box;
     std::size_t axis = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        box.middle[k] = lo[k] + (hi[k] - lo[k]) / 2;
-        box.half[k] = std::max(hi[k] - box.middle[k], box.middle[k] - lo[k]);
-        if (box.half[k] > box.half[axis]) axis = k;
-    }
-    box.begin = begin;
-    box.end = end;
-    boxes_.push_back(box);
-    if (end - begin <= few) return;
-    const std::uint32_t half = begin + (end - begin) / 2;
-    std::ranges::nth_element(
-        vertices_.subspan(begin, end - begin), vertices_.begin() + half,
-        [axis](const Vertex& a, const Vertex& b) { return a.c[axis] < b.c[axis]; });
-    add(begin, half);
-    boxes_[place].second = static_cast<std::uint32_t>(boxes_.size());
-    add(half, end);
+    for (std::size_t k = 1; k < 3; ++k)
+        if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
+    const std::span<Vertex> all = vertices_.subspan(begin, end - begin);
+    const double middle = lo[axis] + (hi[axis] - lo[axis]) / 2;
+    const auto above =
+        std::ranges::partition(all, [&](const Vertex& v) { return v.c[axis] < middle; });
+    const auto part = static_cast<std::uint32_t>(all.size() - above.size());
+    const std::uint32_t least = (end - begin) / 8;
+    if (part > least && end - begin - part > least) return begin + part;
+    const std::uint32_t half = (end - begin) / 2;
+    std::ranges::nth_element(all, all.begin() + half, [axis](const Vertex& a, const Vertex& b) {
+        return a.c[axis] < b.c[axis];
+    });
+    return begin + half;
 }
 
-// Products of lengths are off by less than 2^-50 of the largest ones.
-VertexBoxes::Edge::Edge(const std::array<double, 3>& from, const std::array<double, 3>& to,
-                        double within) {
+void VertexBoxes::part(Node& node, std::uint32_t begin, std::uint32_t end, int levels) {
+    if (levels == 0 || end - begin <= few) {
+        set_box(node, node.count, begin, end);
+        node.begin[node.count++] = begin;
+        node.begin[node.count] = end;
+        return;
+    }
+    const std::uint32_t at = parted_at(begin, end);
+    part(node, begin, at, levels - 1);
+    part(node, at, end, levels - 1);
+}
+
+void VertexBoxes::set_box(Node& node, std::uint32_t child, std::uint32_t begin,
+                          std::uint32_t end) const {
+    std::array<double, 3> lo = vertices_[begin].c;
+    std::array<double, 3> hi = lo;
+    for (std::uint32_t i = begin + 1; i < end; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], vertices_[i].c[k]);
+            hi[k] = std::max(hi[k], vertices_[i].c[k]);
+        }
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto middle = static_cast<float>((lo[k] + (hi[k] - lo[k]) / 2) - origin_[k]);
+        const double at = origin_[k] + static_cast<double>(middle);
+        node.middle[k][child] = middle;
+        node.half[k][child] =
+            static_cast<float>((std::max(hi[k] - at, at - lo[k]) + rounding_) * 1.000001);
+    }
+}
+
+std::uint32_t VertexBoxes::add(std::uint32_t begin, std::uint32_t end) {
+    const auto place = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.emplace_back();
+    Node node;
+    constexpr int levels = 3;
+    part(node, begin, end, levels);
+    for (std::uint32_t i = 0; i < node.count; ++i)
+        if (node.begin[i + 1] - node.begin[i] > few)
+            node.child[i] = add(node.begin[i], node.begin[i + 1]);
+    nodes_[place] = node;
+    return place;
+}
+
+VertexBoxes::Edge VertexBoxes::single_precision(const std::array<double, 3>& from,
+                                                const std::array<double, 3>& to,
+                                                double within) const {
+    Edge out;
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        along[k] = to[k] - from[k];
-        middle[k] = from[k] + along[k] / 2;
-        half[k] = std::fabs(along[k]) * 0.5000001 + within;
-        longest = std::max(longest, std::fabs(along[k]));
+        const double along = to[k] - from[k];
+        out.along[k] = static_cast<float>(along);
+        out.middle[k] = static_cast<float>((from[k] + along / 2) - origin_[k]);
+        out.half[k] =
+            static_cast<float>((std::fabs(along) / 2 + within + 2 * rounding_) * 1.000001);
+        longest = std::max(longest, std::fabs(along));
     }
-    reach.fill(2 * longest * within);
+    out.reach = static_cast<float>(2 * longest * (within + 2 * rounding_) * 1.000001);
+    return out;
 }
 
-bool VertexBoxes::Edge::may_meet(const VertexBox& box) const {
-    std::array<double, 3> apart;
-    for (std::size_t k = 0; k < 3; ++k) {
-        apart[k] = box.middle[k] - middle[k];
-        if (std::fabs(apart[k]) > (box.half[k] + half[k]) * 1.0000001) return false;
+// By the axes first. Products of lengths are off by less than 2^-20 of the largest ones.
+TRISECT_WIDE_CLONES
+void VertexBoxes::Edge::compare(const Node& node, std::array<std::uint8_t, width>& is_near) const {
+    std::array<Row, 3> apart;
+    std::array<std::int32_t, width> near;
+    near.fill(1);
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < width; ++i) {
+            apart[k][i] = node.middle[k][i] - middle[k];
+            near[i] &= std::fabs(apart[k][i]) <= (node.half[k][i] + half[k]) * 1.00001F ? 1 : 0;
+        }
+    std::int32_t left_over = 0;
+    for (std::size_t i = 0; i < width; ++i) {
+        left_over += near[i];
+        is_near[i] = static_cast<std::uint8_t>(near[i]);
     }
+    // The ends of an edge are in boxes themselves.
+    if (left_over <= 2) return;
     for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3;
-        const std::size_t j = (k + 2) % 3;
-        const double left = apart[i] * along[j];
-        const double right = apart[j] * along[i];
-        const double width = box.half[i] * std::fabs(along[j]) + box.half[j] * std::fabs(along[i]);
-        const double rounding = 0x1p-48 * (std::fabs(left) + std::fabs(right) + width);
-        if (std::fabs(left - right) > width + reach[k] + rounding) return false;
+        const std::size_t u = (k + 1) % 3;
+        const std::size_t v = (k + 2) % 3;
+        const float along_u = std::fabs(along[u]);
+        const float along_v = std::fabs(along[v]);
+        for (std::size_t i = 0; i < width; ++i) {
+            const float left = apart[u][i] * along[v];
+            const float right = apart[v][i] * along[u];
+            const float sum = node.half[u][i] * along_v + node.half[v][i] * along_u;
+            const float rounding = 0x1p-20F * (std::fabs(left) + std::fabs(right) + sum);
+            near[i] &= std::fabs(left - right) <= sum + reach + rounding ? 1 : 0;
+        }
     }
-    return true;
+    for (std::size_t i = 0; i < width; ++i) is_near[i] = static_cast<std::uint8_t>(near[i]);
 }
 
 }  // namespace trisect::detail

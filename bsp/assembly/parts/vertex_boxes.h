@@ -13,7 +13,8 @@
 
 namespace trisect::detail {
 
-/// A binary tree that halves vertices along the longest side of their box.
+/// A tree that parts vertices by eight, along the longest sides of their boxes. Boxes of a node's
+/// children are compared together, in single precision, so that they fill vector registers.
 class VertexBoxes {
 public:
     struct Vertex {
@@ -23,53 +24,62 @@ public:
 
     /// Sorts the vertices, which must outlive it. O(n log n)
     void build(std::span<Vertex> vertices);
-    void clear() { boxes_.clear(); }
-    [[nodiscard]] bool is_empty() const { return boxes_.empty(); }
+    void clear() { nodes_.clear(); }
+    [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
 
     /// Calls `look_at` with spans that have all vertices within `reach` of the edge, along every
     /// axis, and few others.
     template <class LookAt>
     void for_each_near(const std::array<double, 3>& from, const std::array<double, 3>& to,
                        double reach, const LookAt& look_at) const {
-        const Edge edge(from, to, reach);
-        std::array<std::uint32_t, 64> stack;  // NOLINT(*-member-init): filled from below
+        const Edge edge = single_precision(from, to, reach);
+        std::array<std::uint32_t, 512> stack;  // NOLINT(*-member-init): filled from below
         std::size_t depth = 0;
         stack[depth++] = 0;
         while (depth != 0) {
-            const std::uint32_t i = stack[--depth];
-            const VertexBox& box = boxes_[i];
-            if (!edge.may_meet(box)) continue;
-            if (box.second == 0) {
-                look_at(vertices_.subspan(box.begin, box.end - box.begin));
-            } else {
-                stack[depth++] = box.second;
-                stack[depth++] = i + 1;
+            const Node& node = nodes_[stack[--depth]];
+            std::array<std::uint8_t, width> is_near;
+            edge.compare(node, is_near);
+            for (std::uint32_t i = 0; i < node.count; ++i) {
+                if (is_near[i] == 0) continue;
+                if (node.child[i] != 0) {
+                    stack[depth++] = node.child[i];
+                } else {
+                    look_at(vertices_.subspan(node.begin[i], node.begin[i + 1] - node.begin[i]));
+                }
             }
         }
     }
 
 private:
-    struct VertexBox {
-        std::array<double, 3> middle{};
-        std::array<double, 3> half{};
-        std::uint32_t begin = 0;
-        std::uint32_t end = 0;
-        std::uint32_t second = 0;  // child, the first one comes next; 0: none
+    static constexpr std::size_t width = 8;
+    using Row = std::array<float, width>;  // one number of each child
+    struct Node {
+        std::array<Row, 3> middle{};  // from origin_
+        std::array<Row, 3> half{};
+        std::array<std::uint32_t, width + 1> begin{};  // of its vertices, in a row
+        std::array<std::uint32_t, width> child{};      // 0: none
+        std::uint32_t count = 0;
     };
     struct Edge {
-        std::array<double, 3> middle{};
-        std::array<double, 3> half{};  // with the reach
-        std::array<double, 3> along{};
-        std::array<double, 3> reach{};  // across, of products
-
-        Edge(const std::array<double, 3>& from, const std::array<double, 3>& to, double within);
-        [[nodiscard]] bool may_meet(const VertexBox& box) const;
+        std::array<float, 3> middle{};
+        std::array<float, 3> half{};  // with the reach
+        std::array<float, 3> along{};
+        float reach = 0;  // across, of products
+        void compare(const Node& node, std::array<std::uint8_t, width>& is_near) const;
     };
 
-    void add(std::uint32_t begin, std::uint32_t end);
+    [[nodiscard]] Edge single_precision(const std::array<double, 3>& from,
+                                        const std::array<double, 3>& to, double within) const;
+    [[nodiscard]] std::uint32_t add(std::uint32_t begin, std::uint32_t end);
+    void part(Node& node, std::uint32_t begin, std::uint32_t end, int levels);
+    void set_box(Node& node, std::uint32_t child, std::uint32_t begin, std::uint32_t end) const;
+    [[nodiscard]] std::uint32_t parted_at(std::uint32_t begin, std::uint32_t end);
 
     std::span<Vertex> vertices_;
-    std::vector<VertexBox> boxes_;
+    std::vector<Node> nodes_;
+    std::array<double, 3> origin_{};
+    double rounding_ = 0;  // of a coordinate, to single precision
 };
 
 }  // namespace trisect::detail

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <random>
 #include <span>
 #include <vector>
@@ -57,6 +58,37 @@ TEST(VertexBoxes, FindAllVerticesOnAnEdgeAndFewOthers) {
         }
     }
     EXPECT_LT(seen, tried / 5);
+}
+
+// Rings of many vertices in planes far from the origin: an edge from one to the next one meets few
+// others.
+TEST(VertexBoxes, OfPlanesStayTogether) {
+    constexpr int around = 1000;
+    constexpr double far_out = 0x1p30;
+    std::vector<VertexBoxes::Vertex> vertices;
+    for (int i = 0; i < 3 * around; ++i) {
+        const double angle = 2 * std::numbers::pi * (i % around) / around;
+        vertices.push_back({{far_out + std::cos(angle), std::sin(angle) - far_out,
+                             static_cast<double>(i / around)},
+                            i});
+    }
+    const std::vector<VertexBoxes::Vertex> all = vertices;
+    VertexBoxes boxes;
+    boxes.build(vertices);
+    std::size_t seen = 0;
+    for (int i = 0; i + 1 < around; ++i) {
+        const auto from = static_cast<std::size_t>(i);
+        const std::size_t to = from + around;
+        std::size_t ends = 0;
+        const auto look_at = [&](std::span<const VertexBoxes::Vertex> part) {
+            seen += part.size();
+            for (const auto& v : part)
+                ends += v.point == all[from].point || v.point == all[to].point ? 1U : 0U;
+        };
+        boxes.for_each_near(all[from].c, all[to].c, 1e-6, look_at);
+        EXPECT_EQ(ends, 2U);
+    }
+    EXPECT_LT(seen, 40U * around);
 }
 
 }  // namespace
