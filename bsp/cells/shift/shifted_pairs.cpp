@@ -15,6 +15,9 @@
 // up to a positive factor. Of a plane, normal · (x - c) for its own points x is what the plane's
 // value is at c, negated. Where a derivative by d is 0, so is the determinant for all d, and the
 // shift along the axes decides.
+//
+// Doubles come first: most signs are not near 0, and those about a plane across an axis are 0 with
+// certainty. Where they leave one sign open, all is done once more in integers.
 
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
 
@@ -23,6 +26,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include <trisect/bsp/cells/shift/near_numbers.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/predicates.h>
 #include <trisect/kernel/wide_int.h>
@@ -37,9 +41,48 @@ int sign_of(const WideInt<N>& v) {
     return v.sign();
 }
 
+// What both kinds of integers have in common.
+template <class N>
+struct Integers {
+    template <class Value, class... IsZero>
+    [[nodiscard]] static int sign(const Value& v, const IsZero&...) {
+        return sign_of(v);
+    }
+    template <class Corners, class Normal>
+    static void set_zeros(const Corners&, const Normal&) {}
+    template <class... Any>
+    [[nodiscard]] static bool is_in_plane(const Any&...) {
+        return false;
+    }
+    template <class... Any>
+    [[nodiscard]] static bool do_meet(const Any&...) {
+        return false;
+    }
+    template <class Length>
+    static auto minor(const Length& a, const Length& b, const Length& c, const Length& d) {
+        return N::product(a, b) - N::product(c, d);
+    }
+    template <class Area, class Length>
+    static auto dot(const std::array<Area, 3>& n, const std::array<Length, 3>& v) {
+        typename N::Value sum;
+        for (std::size_t k = 0; k < 3; ++k) sum += N::product(n[k], v[k]);
+        return sum;
+    }
+    // As a double it is off by less than 2^-51 of it.
+    template <class Value>
+    [[nodiscard]] static double to_double(const Value& v) {
+        return v.to_double();
+    }
+    template <class Value>
+    [[nodiscard]] static double error_of(const Value& v) {
+        return 0x1p-51 * std::fabs(v.to_double());
+    }
+    static void leave_open() {}
+};
+
 // Whole coordinates: lengths are below 2^54, products of two below 2^109, and values of planes
 // below 2^165.
-struct WholeNumbers {
+struct WholeNumbers : Integers<WholeNumbers> {
     using Length = std::int64_t;
     using Area = Int128;
     using Value = WideInt<3>;
@@ -53,7 +96,7 @@ struct WholeNumbers {
 
 // In units of 2^-fraction_limit: lengths are below 2^127, components of normals below 2^255, and
 // values of planes below 3 · 2^381.
-struct Fractions {
+struct Fractions : Integers<Fractions> {
     using Length = WideInt<2>;
     using Area = WideInt<4>;
     using Value = WideInt<6>;
@@ -86,21 +129,19 @@ Normal<N> cross(const Lengths<N>& u, const Lengths<N>& v) {
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3;
         const std::size_t j = (k + 2) % 3;
-        n[k] = N::product(u[i], v[j]) - N::product(u[j], v[i]);
+        n[k] = N::minor(u[i], v[j], u[j], v[i]);
     }
     return n;
 }
 
 template <class N>
 typename N::Value dot(const Normal<N>& n, const Lengths<N>& v) {
-    typename N::Value sum;
-    for (std::size_t k = 0; k < 3; ++k) sum += N::product(n[k], v[k]);
-    return sum;
+    return N::dot(n, v);
 }
 
-template <class Area>
-std::array<int, 3> signs_of(const std::array<Area, 3>& n) {
-    return {sign_of(n[0]), sign_of(n[1]), sign_of(n[2])};
+template <class N>
+std::array<int, 3> signs_of(const N& numbers, const Normal<N>& n) {
+    return {numbers.sign(n[0]), numbers.sign(n[1]), numbers.sign(n[2])};
 }
 
 template <class N>
@@ -111,6 +152,7 @@ struct Facet {
     explicit Facet(const FacetCorners& points) {
         for (std::size_t i = 0; i < 3; ++i) corners[i] = lengths<N>(*points[i]);
         normal = cross<N>(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+        N::set_zeros(corners, normal);
     }
     [[nodiscard]] typename N::Value value(const Lengths<N>& p) const {
         return dot<N>(normal, minus(p, corners[0]));
@@ -121,8 +163,9 @@ struct Facet {
 template <class N>
 class Derivatives {
 public:
-    explicit Derivatives(const InfinitesimalShift& shift)
-        : shift_(shift),
+    Derivatives(const N& numbers, const InfinitesimalShift& shift)
+        : numbers_(numbers),
+          shift_(shift),
           growths_{{{shift.growth, lengths<N>(shift.centre)},
                     {shift.next_growth, lengths<N>(shift.next_centre)}}} {}
 
@@ -131,18 +174,19 @@ public:
     [[nodiscard]] int of_value(const Facet<N>& facet) const {
         for (const Growth& g : growths_) {
             if (g.sign == 0) break;
-            if (const int sign = facet.value(g.centre).sign(); sign != 0) return -g.sign * sign;
+            const int sign = numbers_.sign(facet.value(g.centre));
+            if (sign != 0) return -g.sign * sign;
         }
-        return shift_.along(signs_of(facet.normal));
+        return shift_.along(signs_of(numbers_, facet.normal));
     }
     // Of the product of a vector and a point that is moved.
     [[nodiscard]] int of_product(const Normal<N>& n, const Lengths<N>& point) const {
         for (const Growth& g : growths_) {
             if (g.sign == 0) break;
-            const int sign = dot<N>(n, minus(point, g.centre)).sign();
+            const int sign = numbers_.sign(dot<N>(n, minus(point, g.centre)));
             if (sign != 0) return g.sign * sign;
         }
-        return shift_.along(signs_of(n));
+        return shift_.along(signs_of(numbers_, n));
     }
 
 private:
@@ -150,6 +194,7 @@ private:
         int sign = 0;
         Lengths<N> centre;
     };
+    const N& numbers_;
     const InfinitesimalShift& shift_;
     std::array<Growth, 2> growths_;
 };
@@ -158,17 +203,21 @@ private:
 // adds to their values.
 template <class N>
 struct CornerSigns {
-    std::array<double, 3> value{};  // off by less than 2^-51 of it
+    std::array<double, 3> value{};
+    std::array<double, 3> error{};
     std::array<int, 3> sign{};
     unsigned on = 0;  // without the shift
     int above = 0;
 
     template <class Derivative>
-    CornerSigns(const Facet<N>& plane, const Facet<N>& facet, const Derivative& derivative) {
+    CornerSigns(const N& numbers, const Facet<N>& plane, const Facet<N>& facet,
+                const Derivative& derivative) {
         for (std::size_t i = 0; i < 3; ++i) {
             const typename N::Value v = plane.value(facet.corners[i]);
-            value[i] = v.to_double();
-            sign[i] = v.sign();
+            value[i] = numbers.to_double(v);
+            error[i] = numbers.error_of(v);
+            sign[i] = numbers.sign(
+                v, [&] { return N::is_in_plane(facet.corners[i], plane.corners, plane.normal); });
             if (sign[i] == 0) on |= 1U << i;
         }
         const int moved = on != 0 ? derivative() : 0;
@@ -205,13 +254,18 @@ struct NumberedCorners {
     }
 };
 
-// The point between two corners where a plane's value is 0. The part of the way is off by less than
-// 2^-49.
-Approximation between(const LatticePoint& a, double value_a, const LatticePoint& b,
-                      double value_b) {
-    const std::array<double, 3> from = a.doubles();
-    const std::array<double, 3> to = b.doubles();
-    const double part = std::fabs(value_a) / (std::fabs(value_a) + std::fabs(value_b));
+// The point between two corners where a plane's value is 0.
+template <class N>
+Approximation between(const N& numbers, const std::array<const LatticePoint*, 2>& points,
+                      const std::array<double, 2>& values, double error) {
+    const std::array<double, 3> from = points[0]->doubles();
+    const std::array<double, 3> to = points[1]->doubles();
+    const double drop = std::fabs(values[0]) + std::fabs(values[1]);
+    const double part = std::fabs(values[0]) / drop;
+    // Of the part of the way: by the values, and by roundings of the quotient.
+    const double off = 2 * (error / drop) + 0x1p-51;
+    constexpr double too_much = 0x1p-44;
+    if (off > too_much) numbers.leave_open();
     Approximation x;
     double span = 0;
     double largest = 0;
@@ -221,14 +275,14 @@ Approximation between(const LatticePoint& a, double value_a, const LatticePoint&
         span = std::max(span, std::fabs(step));
         largest = std::max({largest, std::fabs(from[k]), std::fabs(to[k])});
     }
-    x.error = span * 0x1p-48 + largest * 0x1p-50;
+    x.error = span * (off + 0x1p-49) + largest * 0x1p-50;
     return x;
 }
 
 // Where the edge from the lonely corner to corner i goes through the other plane.
 template <class N>
-void set_end(const FacetCorners& points, const NumberedCorners<N>& t, const CornerSigns<N>& sides,
-             std::size_t i, bool of_second, FacetCrossing::End& end) {
+void set_end(const N& numbers, const FacetCorners& points, const NumberedCorners<N>& t,
+             const CornerSigns<N>& sides, std::size_t i, bool of_second, FacetCrossing::End& end) {
     end.of_second = of_second;
     end.edge = t.edge_to(i);
     end.corner = -1;
@@ -240,7 +294,8 @@ void set_end(const FacetCorners& points, const NumberedCorners<N>& t, const Corn
         end.at = approximate(*points[c]);
         return;
     }
-    end.at = between(*points[from], sides.value[from], *points[to], sides.value[to]);
+    end.at = between(numbers, {points[from], points[to]}, {sides.value[from], sides.value[to]},
+                     sides.error[from] + sides.error[to]);
 }
 
 bool are_equal(const FacetCorners& a, const FacetCorners& b) {
@@ -249,10 +304,10 @@ bool are_equal(const FacetCorners& a, const FacetCorners& b) {
     });
 }
 
-template <class Area>
-bool point_the_same_way(const std::array<Area, 3>& a, const std::array<Area, 3>& b) {
+template <class N>
+bool point_the_same_way(const N& numbers, const Normal<N>& a, const Normal<N>& b) {
     for (std::size_t k = 0; k < 3; ++k)
-        if (const int s = sign_of(a[k]); s != 0) return s == sign_of(b[k]);
+        if (const int s = numbers.sign(a[k]); s != 0) return s == numbers.sign(b[k]);
     return true;
 }
 
@@ -263,29 +318,29 @@ bool are_whole(std::initializer_list<const FacetCorners*> facets) {
 }
 
 template <class N>
-ShiftedPair relate(const FacetCorners& first, const FacetCorners& second,
+ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorners& second,
                    const InfinitesimalShift& shift) {
     ShiftedPair out;
     const Facet<N> a(first);
     const Facet<N> b(second);
-    const Derivatives<N> derivatives(shift);
+    const Derivatives<N> derivatives(numbers, shift);
     if (are_equal(first, second)) {
         out.kind = ShiftedPair::Kind::Equal;
-        out.same_side = point_the_same_way(a.normal, b.normal);
+        out.same_side = point_the_same_way(numbers, a.normal, b.normal);
         return out;
     }
-    const CornerSigns<N> of_b(a, b, [&] { return derivatives.of_value(a); });
+    const CornerSigns<N> of_b(numbers, a, b, [&] { return derivatives.of_value(a); });
     if (of_b.on == 7) {
         out.kind = ShiftedPair::Kind::Coplanar;
         out.is_above = of_b.above == 3;
-        out.same_side = point_the_same_way(a.normal, b.normal);
+        out.same_side = point_the_same_way(numbers, a.normal, b.normal);
         return out;
     }
     if (of_b.is_off()) {
         out.touches = of_b.on != 0;
         return out;
     }
-    const CornerSigns<N> of_a(b, a, [&] { return -derivatives.of_value(b); });
+    const CornerSigns<N> of_a(numbers, b, a, [&] { return -derivatives.of_value(b); });
     out.touches = of_b.on != 0 || of_a.on != 0;
     if (of_a.is_off()) {
         out.touches = of_a.on != 0;
@@ -300,7 +355,8 @@ ShiftedPair relate(const FacetCorners& first, const FacetCorners& second,
     // The sign of det(p0 - qj, pi - qj, q0 - qj); its derivative is (pi - p0) × (qj - q0).
     const auto order = [&](std::size_t i, std::size_t j) {
         const Normal<N> n = cross<N>(minus(p[i], q[j]), minus(q[0], q[j]));
-        const int sign = dot<N>(n, minus(p[0], q[j])).sign();
+        const int sign = numbers.sign(dot<N>(n, minus(p[0], q[j])),
+                                      [&] { return N::do_meet(p[0], p[i], q[0], q[j]); });
         if (sign != 0) return sign;
         out.touches = true;
         return derivatives.of_product(cross<N>(minus(p[i], p[0]), minus(q[j], q[0])), q[0]);
@@ -322,9 +378,9 @@ ShiftedPair relate(const FacetCorners& first, const FacetCorners& second,
     out.kind = ShiftedPair::Kind::Crossing;
     const auto set = [&](FacetCrossing::End& end, bool of_second, std::size_t corner) {
         if (of_second) {
-            set_end(second, q, of_b, corner, true, end);
+            set_end(numbers, second, q, of_b, corner, true, end);
         } else {
-            set_end(first, p, of_a, corner, false, end);
+            set_end(numbers, first, p, of_a, corner, false, end);
         }
     };
     // The later start and the earlier end.
@@ -336,25 +392,25 @@ ShiftedPair relate(const FacetCorners& first, const FacetCorners& second,
 
 // Where they are apart, or have only outlines in common, an edge of one of them parts them.
 template <class N>
-Overlap overlap(const FacetCorners& first, const FacetCorners& second) {
+Overlap overlap(const N& numbers, const FacetCorners& first, const FacetCorners& second) {
     const std::array<Facet<N>, 2> facets{Facet<N>(first), Facet<N>(second)};
     Overlap out = Overlap::Insides;
     std::size_t axis = 0;
-    while (axis < 2 && sign_of(facets[0].normal[axis]) == 0) ++axis;
+    while (axis < 2 && numbers.sign(facets[0].normal[axis]) == 0) ++axis;
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     for (std::size_t side = 0; side < 2; ++side) {
         const Facet<N>& f = facets[side];
         const Facet<N>& g = facets[1 - side];
-        const int inner = sign_of(f.normal[axis]);
+        const int inner = numbers.sign(f.normal[axis]);
         for (std::size_t e = 0; e < 3; ++e) {
             const Lengths<N>& from = f.corners[e];
             const Lengths<N> along = minus(f.corners[(e + 1) % 3], from);
             int nearest = -1;
             for (const Lengths<N>& p : g.corners) {
                 const Lengths<N> to = minus(p, from);
-                const auto left = N::product(along[u], to[v]) - N::product(along[v], to[u]);
-                nearest = std::max(nearest, inner * sign_of(left));
+                const auto left = N::minor(along[u], to[v], along[v], to[u]);
+                nearest = std::max(nearest, inner * numbers.sign(left));
             }
             if (nearest < 0) return Overlap::None;
             if (nearest == 0) out = Overlap::Outlines;
@@ -409,7 +465,8 @@ template <class N>
 std::optional<int> passage(const LatticePoint& from, const LatticePoint& to, bool is_second,
                            const FacetCorners& corners, const InfinitesimalShift& shift) {
     const Facet<N> facet(corners);
-    const Derivatives<N> derivatives(shift);
+    const N numbers;
+    const Derivatives<N> derivatives(numbers, shift);
     const Lengths<N> p = lengths<N>(from);
     const Lengths<N> q = lengths<N>(to);
     const auto side = [&](const Lengths<N>& at) {
@@ -437,29 +494,52 @@ bool is_whole(const InfinitesimalShift& shift) {
            (shift.next_growth == 0 || shift.next_centre.is_whole());
 }
 
+// By what doubles say, or integers where they leave a sign open.
+template <class Answer>
+auto in_numbers(bool whole, const Answer& answer) {
+    const NearNumbers near;
+    auto out = answer(near);
+    if (!near.is_open()) return out;
+    return whole ? answer(WholeNumbers()) : answer(Fractions());
+}
+
 }  // namespace
+
+std::optional<ShiftedPair> relate_in_doubles(const FacetCorners& first, const FacetCorners& second,
+                                             const InfinitesimalShift& shift) {
+    const NearNumbers near;
+    ShiftedPair out = relate(near, first, second, shift);
+    if (near.is_open()) return std::nullopt;
+    return out;
+}
+
+ShiftedPair relate_exactly(const FacetCorners& first, const FacetCorners& second,
+                           const InfinitesimalShift& shift) {
+    return are_whole({&first, &second}) && is_whole(shift)
+               ? relate(WholeNumbers(), first, second, shift)
+               : relate(Fractions(), first, second, shift);
+}
 
 ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second,
                            const InfinitesimalShift& shift) {
-    return are_whole({&first, &second}) && is_whole(shift)
-               ? relate<WholeNumbers>(first, second, shift)
-               : relate<Fractions>(first, second, shift);
+    if (const auto known = relate_in_doubles(first, second, shift)) return *known;
+    return relate_exactly(first, second, shift);
 }
 
 Overlap coplanar_overlap(const FacetCorners& first, const FacetCorners& second) {
-    return are_whole({&first, &second}) ? overlap<WholeNumbers>(first, second)
-                                        : overlap<Fractions>(first, second);
+    return in_numbers(are_whole({&first, &second}),
+                      [&](const auto& n) { return overlap(n, first, second); });
 }
 
 std::array<int, 3> normal_signs(const FacetCorners& facet) {
-    return are_whole({&facet}) ? signs_of(Facet<WholeNumbers>(facet).normal)
-                               : signs_of(Facet<Fractions>(facet).normal);
+    return in_numbers(are_whole({&facet}),
+                      [&]<class N>(const N& n) { return signs_of(n, Facet<N>(facet).normal); });
 }
 
 int side_of_shifted(const FacetCorners& facet, const InfinitesimalShift& shift) {
-    return are_whole({&facet}) && is_whole(shift)
-               ? Derivatives<WholeNumbers>(shift).of_value(Facet<WholeNumbers>(facet))
-               : Derivatives<Fractions>(shift).of_value(Facet<Fractions>(facet));
+    return in_numbers(are_whole({&facet}) && is_whole(shift), [&]<class N>(const N& n) {
+        return Derivatives<N>(n, shift).of_value(Facet<N>(facet));
+    });
 }
 
 std::optional<int> passage_shifted(const LatticePoint& from, const LatticePoint& to, bool is_second,

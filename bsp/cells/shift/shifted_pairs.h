@@ -36,6 +36,13 @@ struct ShiftedPair {
 
 [[nodiscard]] ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second,
                                          const InfinitesimalShift& shift);
+/// The same in two ways: in doubles, and nothing where they leave a sign open, and in integers.
+/// Answers agree, but for the last bits of ends.
+[[nodiscard]] std::optional<ShiftedPair> relate_in_doubles(const FacetCorners& first,
+                                                           const FacetCorners& second,
+                                                           const InfinitesimalShift& shift);
+[[nodiscard]] ShiftedPair relate_exactly(const FacetCorners& first, const FacetCorners& second,
+                                         const InfinitesimalShift& shift);
 
 /// What two facets of one plane have in common, without the shift: nothing, a part of their
 /// outlines, or more.

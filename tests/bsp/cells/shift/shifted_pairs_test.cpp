@@ -22,6 +22,8 @@ using trisect::detail::FacetCorners;
 using trisect::detail::InfinitesimalShift;
 using trisect::detail::order_along_shifted;
 using trisect::detail::Overlap;
+using trisect::detail::relate_exactly;
+using trisect::detail::relate_in_doubles;
 using trisect::detail::relate_shifted;
 using trisect::detail::ShiftedPair;
 using trisect::detail::side_of_shifted;
@@ -162,6 +164,82 @@ TEST(ShiftedPairs, AreRelatedAsThoseThatAreMoved) {
     }
     EXPECT_GT(*std::ranges::min_element(kinds), 10);
     EXPECT_GT(touching, 1000);
+}
+
+void expect_equal(const ShiftedPair& pair, const ShiftedPair& other) {
+    ASSERT_EQ(pair.kind, other.kind);
+    EXPECT_EQ(pair.touches, other.touches);
+    EXPECT_EQ(pair.is_above, other.is_above);
+    EXPECT_EQ(pair.same_side, other.same_side);
+    for (std::size_t k = 0; pair.kind == ShiftedPair::Kind::Crossing && k < 2; ++k) {
+        EXPECT_EQ(pair.ends[k].of_second, other.ends[k].of_second);
+        EXPECT_EQ(pair.ends[k].edge, other.ends[k].edge);
+        EXPECT_EQ(pair.ends[k].corner, other.ends[k].corner);
+        const double error = pair.ends[k].at.error + other.ends[k].at.error;
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_NEAR(pair.ends[k].at.c[i], other.ends[k].at.c[i], error);
+    }
+}
+
+// Corners on a small grid, or each of them a little beside it, one unit or all digits.
+TEST(ShiftedPairs, DoublesAgreeWithIntegersWhereTheyDecide) {
+    int decided = 0;
+    int open = 0;
+    std::mt19937 beside(1);
+    for (std::uint32_t seed = 0; seed < 20000; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Triangles random(seed + 40000);
+        const auto place = [&](const Triangle& t) {
+            std::array<LatticePoint, 3> out = points_of(t);
+            if (seed % 3 == 0) return out;
+            for (LatticePoint& p : out) {
+                const auto moved = [&](trisect::Coordinate c) {
+                    const double by = static_cast<double>(beside() % 3) - 1;
+                    return trisect::Coordinate(c.to_double() * 0x1p40 +
+                                               by * (seed % 3 == 1 ? 1.0 : 0x1p-12));
+                };
+                p = {moved(p.x), moved(p.y), moved(p.z)};
+            }
+            return out;
+        };
+        const std::int64_t size = 2 + seed % 4;
+        const auto a = place(random.next(size));
+        const auto b = place(random.next(size));
+        const InfinitesimalShift shift = random.shift();
+        const auto pair = relate_in_doubles(corners(a), corners(b), shift);
+        ++(pair ? decided : open);
+        const ShiftedPair expected = relate_exactly(corners(a), corners(b), shift);
+        if (pair) expect_equal(*pair, expected);
+        expect_equal(relate_shifted(corners(a), corners(b), shift), expected);
+    }
+    EXPECT_GT(decided, 10000);
+    EXPECT_GT(open, 100);
+}
+
+// The upper edges of a prism's walls in a face of a plate, all digits used.
+TEST(ShiftedPairs, DoublesDecideWallsThatEndInAFace) {
+    std::mt19937 random(5);
+    const auto digits = [&](double from, double to) {
+        return trisect::Coordinate(from + (to - from) * (static_cast<double>(random()) * 0x1p-32));
+    };
+    const trisect::Coordinate top(0x1p40 / 3);
+    for (int i = 0; i < 1000; ++i) {
+        SCOPED_TRACE(i);
+        const std::array<LatticePoint, 3> face{
+            LatticePoint{digits(-0x1p41, -0x1p40), digits(-0x1p41, -0x1p40), top},
+            LatticePoint{digits(0x1p40, 0x1p41), digits(-0x1p41, -0x1p40), top},
+            LatticePoint{digits(-0x1p41, -0x1p40), digits(0x1p40, 0x1p41), top}};
+        const LatticePoint p{digits(-0x1p39, 0), digits(-0x1p39, 0), top};
+        const LatticePoint q{digits(-0x1p39, 0), digits(-0x1p39, 0), top};
+        const std::array<LatticePoint, 3> wall{p, q, {q.x, q.y, digits(-0x1p40, 0)}};
+        InfinitesimalShift shift;
+        shift.growth = i % 2 == 0 ? 1 : -1;
+        shift.centre = {digits(-0x1p39, 0), digits(-0x1p39, 0), digits(-0x1p40, 0)};
+        const auto pair = relate_in_doubles(corners(face), corners(wall), shift);
+        ASSERT_TRUE(pair.has_value());
+        EXPECT_TRUE(pair->kind == ShiftedPair::Kind::Apart || i % 2 == 0);
+        expect_equal(*pair, relate_exactly(corners(face), corners(wall), shift));
+    }
 }
 
 // Where an edge goes through two facets that have a point of it in common.
