@@ -157,7 +157,8 @@ bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solid
     return are_two_meshes(formula, solids, options);
 }
 
-// Where facets across the axes, or few of prisms, have planes in common, one leaf has them all.
+// Where facets across the axes, or few of prisms, have planes in common, one leaf has them all. But
+// prisms whose caps meet are no arrangement of segments.
 bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateSettings& options) {
     if (!are_many_meshes(formula, solids, options)) return false;
@@ -168,6 +169,7 @@ bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& sol
         });
     };
     if (ends_are([](const PolygonRef& r) { return is_axis_polygon(r); })) return false;
+    if (do_stand_on_each_other(solids)) return true;
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
     return all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons ||
@@ -207,9 +209,9 @@ constexpr std::array all_rules{
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
     Rule{
         "many meshes",
-        "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, or the first one's "
-        "has half of all, or of such; none with an index, not all across the axes or a leaf of "
-        "prisms; no limits",
+        "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, or stand on each "
+        "other, or the first one's has half of all, or of such; none with an index, not all across "
+        "the axes or a leaf of prisms; no limits",
         "uncrossed facets, outlines", &Stats::filtered_leaves,
         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",

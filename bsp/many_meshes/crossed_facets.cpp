@@ -219,6 +219,7 @@ bool CrossedFacetsFinder::compare(const Cell& cell) {
     stats_->listed_polygons += all.size();
     if (!facets_.list({trisect::detail::Cell{}, near, operands, nullptr, &options_})) return false;
     draw_in_boxes(cell);
+    leave_out_planes(cell);
     pairs_.relate_all_by_planes_but(doubtful_, facets_, *stats_);
     keep_crossings(cell);
     decide(cell);
@@ -237,6 +238,25 @@ void CrossedFacetsFinder::draw_in_boxes(const Cell& cell) {
                 f.hi[k] = std::min(f.hi[k], hi.c[k] + 2 * hi.error);
             }
         }
+}
+
+// Facets of one plane do not cross, and what they touch is found for all of them together.
+void CrossedFacetsFinder::leave_out_planes(const Cell& cell) {
+    planes_.clear();
+    for (std::size_t i = 0; i < 2; ++i) {
+        in_planes_[i].clear();
+        for (const Item& item : cell.items[i]) {
+            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
+            const std::uint32_t plane = special_.plane_across_axis(f.number);
+            planes_.push_back(plane);
+            if (plane != 0) in_planes_[i].push_back({plane, f.number, f.slot, item.box});
+        }
+        std::ranges::stable_sort(in_planes_[i], {}, &SpecialPairs::InCell::plane);
+    }
+    const bool are_some = !in_planes_[0].empty() && !in_planes_[1].empty();
+    if (are_some) special_.look_at_planes(in_planes_[0], in_planes_[1]);
+    pairs_.leave_out_planes(are_some ? std::span<const std::uint32_t>(planes_)
+                                     : std::span<const std::uint32_t>());
 }
 
 void CrossedFacetsFinder::keep_crossings(const Cell& cell) {

@@ -61,6 +61,7 @@ private:
     [[nodiscard]] bool divide(Cell& cell, const Splitter& splitter);
     [[nodiscard]] bool compare(const Cell& cell);
     void draw_in_boxes(const Cell& cell);
+    void leave_out_planes(const Cell& cell);
     void keep_crossings(const Cell& cell);
     void decide(const Cell& cell);
     void keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
@@ -77,6 +78,8 @@ private:
     FilteredPairs pairs_;
     FilteredPairs::Doubtful doubtful_;
     std::vector<PolygonRef> polygons_;
+    std::vector<std::uint32_t> planes_;  // across axes, by item
+    std::array<std::vector<SpecialPairs::InCell>, 2> in_planes_;
 };
 
 }  // namespace trisect::detail

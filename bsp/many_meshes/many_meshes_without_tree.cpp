@@ -22,6 +22,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,7 @@
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/many_meshes/common_part.h>
+#include <trisect/bsp/many_meshes/operand_clusters.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
@@ -58,7 +61,69 @@ constexpr double crowded_part = 0.3;
 // The part of the common box that the first operand's has, where all others are tools in it.
 constexpr double large_first_part = 0.5;
 
+// The part of all operands of which boxes stand on each other: there cells are arranged exactly.
+constexpr double standing_part = 0.5;
+
 enum class Crowd : std::uint8_t { None, All, InFirst };
+
+// Whether a box ends where another one begins, and they have a part of a plane in common.
+bool stands(const Box& a, const Box& b) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t u = (k + 1) % 3;
+        const std::size_t v = (k + 2) % 3;
+        if ((a.hi[k] == b.lo[k] || b.hi[k] == a.lo[k]) && a.lo[u] < b.hi[u] && b.lo[u] < a.hi[u] &&
+            a.lo[v] < b.hi[v] && b.lo[v] < a.hi[v])
+            return true;
+    }
+    return false;
+}
+
+bool are_enough(std::span<const std::uint8_t> found) {
+    const auto count = static_cast<double>(std::ranges::count(found, 1));
+    return count >= standing_part * static_cast<double>(found.size());
+}
+
+// Whether enough boxes begin or end at a coordinate at which another one ends or begins.
+bool may_stand(std::span<const Box> boxes) {
+    std::vector<std::uint8_t> found(boxes.size(), 0);
+    std::vector<std::int64_t> begins;
+    std::vector<std::int64_t> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+        begins.clear();
+        ends.clear();
+        for (const Box& b : boxes) {
+            begins.push_back(b.lo[k]);
+            ends.push_back(b.hi[k]);
+        }
+        std::ranges::sort(begins);
+        std::ranges::sort(ends);
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+            if (std::ranges::binary_search(ends, boxes[i].lo[k]) ||
+                std::ranges::binary_search(begins, boxes[i].hi[k]))
+                found[i] = 1;
+    }
+    return are_enough(found);
+}
+
+// Looks at neighbours in the order along each axis.
+bool do_stand(std::span<const Box> boxes) {
+    if (!may_stand(boxes)) return false;
+    constexpr std::size_t most_looked_at = 64;
+    std::vector<std::uint8_t> found(boxes.size(), 0);
+    std::vector<std::uint32_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), 0U);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::ranges::sort(order, {},
+                          [&](std::uint32_t s) { return std::pair(boxes[s].lo[axis], s); });
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const Box& a = boxes[order[i]];
+            const std::size_t end = std::min(order.size(), i + 1 + most_looked_at);
+            for (std::size_t j = i + 1; j < end && boxes[order[j]].lo[axis] <= a.hi[axis]; ++j)
+                if (stands(a, boxes[order[j]])) found[order[i]] = found[order[j]] = 1;
+        }
+    }
+    return are_enough(found);
+}
 
 Crowd crowd_of(const SolidStates& solids) {
     Box all;
@@ -82,16 +147,17 @@ class BalancedTree {
 public:
     BalancedTree(const ManyMeshes& meshes, const SolidStates& solids,
                  const EvaluateSettings& options, bool parallel)
-        : meshes_(meshes),
-          solids_(solids),
-          options_(options),
-          parallel_(parallel),
-          first_is_last_(crowd_of(solids) == Crowd::InFirst) {}
+        : meshes_(meshes), solids_(solids), options_(options), parallel_(parallel) {
+        if (meshes.nested == nullptr) set_order();
+    }
 
     // What all operands leave open together.
     [[nodiscard]] std::optional<OutlinedSolid> of_all(EvaluateStats& stats) const {
         if (meshes_.nested != nullptr) return of_node(NestedFormula::root, stats);
-        return of(0, static_cast<std::uint32_t>(solids_.size()), stats);
+        if (!first_is_last_) return of_rest(stats);
+        return common_of(
+            meshes_.facet_count(), stats, [&](EvaluateStats&) { return of_operand(0); },
+            [&](EvaluateStats& s) { return of_rest(s); });
     }
 
     // Of all so far; in no order.
@@ -101,25 +167,79 @@ public:
     }
 
 private:
-    // What operands [first, end) leave open together.
-    [[nodiscard]] std::optional<OutlinedSolid> of(std::uint32_t first, std::uint32_t end,
-                                                  EvaluateStats& stats) const {
-        if (first + 1 == end)
-            return whole_operand(
-                meshes_, first,
-                is_open_far_out(*solids_[first], meshes_.operands->operands[first]));
-        const bool is_alone = first_is_last_ && first == 0;
-        const std::uint32_t middle = is_alone ? 1 : first + (end - first) / 2;
+    using Slots = std::span<const std::uint32_t>;
+    using Clusters = std::span<const std::vector<std::uint32_t>>;
+
+    // Operands that leave open what is far out, as tools do, are clustered: of two that are apart
+    // nothing is compared. Others cut down whatever they meet. Where all tools are in the first
+    // operand, its facets stay whole until all of them come.
+    void set_order() {
+        first_is_last_ = crowd_of(solids_) == Crowd::InFirst;
+        std::vector<Box> boxes;
+        std::vector<std::uint32_t> all;
+        std::vector<std::uint32_t> bounded;
+        for (std::uint32_t i = 0; i < solids_.size(); ++i) {
+            boxes.push_back(meshes_.sources[i]->box());
+            if (first_is_last_ && i == 0) continue;
+            all.push_back(i);
+            (is_open_far(i) ? bounded : order_).push_back(i);
+        }
+        clusters_ = operand_clusters(boxes, bounded);
+        if (clusters_.size() > 1) return;
+        clusters_.clear();
+        order_ = std::move(all);
+    }
+    [[nodiscard]] bool is_open_far(std::uint32_t slot) const {
+        return is_open_far_out(*solids_[slot], meshes_.operands->operands[slot]);
+    }
+
+    [[nodiscard]] std::optional<OutlinedSolid> of_operand(std::uint32_t slot) const {
+        return whole_operand(meshes_, slot, is_open_far(slot));
+    }
+    [[nodiscard]] std::optional<OutlinedSolid> of_rest(EvaluateStats& stats) const {
+        if (clusters_.empty()) return of(order_, stats);
+        if (order_.empty()) return of_clusters(clusters_, stats);
         return common_of(
-            facets_of(first, end), stats, [&](EvaluateStats& s) { return of(first, middle, s); },
-            [&](EvaluateStats& s) { return of(middle, end, s); });
+            meshes_.facet_count(), stats, [&](EvaluateStats& s) { return of(order_, s); },
+            [&](EvaluateStats& s) { return of_clusters(clusters_, s); });
+    }
+    // What operands leave open together.
+    [[nodiscard]] std::optional<OutlinedSolid> of(Slots slots, EvaluateStats& stats) const {
+        if (slots.size() == 1) return of_operand(slots[0]);
+        const Slots first = slots.first(slots.size() / 2);
+        const Slots second = slots.subspan(slots.size() / 2);
+        return common_of(
+            facets_of(slots), stats, [&](EvaluateStats& s) { return of(first, s); },
+            [&](EvaluateStats& s) { return of(second, s); });
+    }
+    [[nodiscard]] std::optional<OutlinedSolid> of_clusters(Clusters clusters,
+                                                           EvaluateStats& stats) const {
+        std::size_t facets = 0;
+        for (const auto& slots : clusters) facets += facets_of(slots);
+        if (clusters.size() > 1 && parallel_ && facets >= parallel_facets) {
+            const std::size_t half = clusters.size() / 2;
+            auto [one, other] = both(
+                facets, stats,
+                [&](EvaluateStats& s) { return of_clusters(clusters.first(half), s); },
+                [&](EvaluateStats& s) { return of_clusters(clusters.subspan(half), s); });
+            if (!one || !other) return std::nullopt;
+            add_apart(*std::move(other), *one);
+            return std::move(one);
+        }
+        OutlinedSolid out;
+        out.open_far_out = true;
+        for (const auto& slots : clusters) {
+            std::optional<OutlinedSolid> solid = of(slots, stats);
+            if (!solid) return std::nullopt;
+            add_apart(*std::move(solid), out);
+        }
+        return out;
     }
     [[nodiscard]] std::optional<OutlinedSolid> of_node(std::uint32_t number,
                                                        EvaluateStats& stats) const {
         const NestedFormula::Node& node = meshes_.nested->node(number);
         if (node.slot >= 0) {
-            const auto slot = static_cast<std::uint32_t>(node.slot);
-            return of(slot, slot + 1, stats);
+            return of_operand(static_cast<std::uint32_t>(node.slot));
         }
         std::optional<OutlinedSolid> out = of_terms(node, 0, node.terms.size(), stats);
         if (out && node.unites) out->open_far_out = !out->open_far_out;
@@ -143,22 +263,28 @@ private:
         return out;
     }
 
+    using Pair = std::pair<std::optional<OutlinedSolid>, std::optional<OutlinedSolid>>;
     template <class Below, class Above>
-    [[nodiscard]] std::optional<OutlinedSolid> common_of(std::size_t facets, EvaluateStats& stats,
-                                                         const Below& below_by,
-                                                         const Above& above_by) const {
-        std::optional<OutlinedSolid> below;
-        std::optional<OutlinedSolid> above;
+    [[nodiscard]] Pair both(std::size_t facets, EvaluateStats& stats, const Below& below_by,
+                            const Above& above_by) const {
+        Pair out;
         EvaluateStats of_above;
-        const auto find_below = [&] { below = below_by(stats); };
-        const auto find_above = [&] { above = above_by(of_above); };
+        const auto find_below = [&] { out.first = below_by(stats); };
+        const auto find_above = [&] { out.second = above_by(of_above); };
         if (parallel_ && facets >= parallel_facets) {
             both_at_once(find_above, find_below);
         } else {
             find_below();
-            if (below) find_above();
+            if (out.first) find_above();
         }
         stats += of_above;
+        return out;
+    }
+    template <class Below, class Above>
+    [[nodiscard]] std::optional<OutlinedSolid> common_of(std::size_t facets, EvaluateStats& stats,
+                                                         const Below& below_by,
+                                                         const Above& above_by) const {
+        auto [below, above] = both(facets, stats, below_by, above_by);
         if (!below || !above) return std::nullopt;
         CommonPart& common =
             common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); });
@@ -183,16 +309,20 @@ private:
         }
         return n;
     }
-    [[nodiscard]] std::size_t facets_of(std::uint32_t first, std::uint32_t end) const {
+    [[nodiscard]] std::size_t facets_of(Slots slots) const {
         std::size_t n = 0;
-        for (std::uint32_t i = first; i < end; ++i) n += meshes_.sources[i]->facet_count();
+        for (const std::uint32_t s : slots) n += meshes_.sources[s]->facet_count();
         return n;
     }
     const ManyMeshes& meshes_;
     const SolidStates& solids_;
     const EvaluateSettings& options_;
     bool parallel_;
-    bool first_is_last_;  // with what all others leave open: its facets stay whole till then
+    // Of formulas that are not nested: the first operand with what all others leave open, these in
+    // order, and clusters, if there are several.
+    bool first_is_last_ = false;
+    std::vector<std::uint32_t> order_;
+    std::vector<std::vector<std::uint32_t>> clusters_;
     mutable PerThread<CommonPart> common_;
 };
 
@@ -272,6 +402,14 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
     return std::nullopt;
 }
 
+// Groups of operands leave them in an order of their own.
+std::vector<OutlinedSolid::Facet> facets_ascending(const OutlinedSolid& solid) {
+    std::vector<OutlinedSolid::Facet> out = solid.facets;
+    if (!std::ranges::is_sorted(out, {}, &OutlinedSolid::Facet::number))
+        std::ranges::sort(out, {}, &OutlinedSolid::Facet::number);
+    return out;
+}
+
 // By what assembly needs.
 UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes,
                         const Crossings& operands, std::shared_ptr<const LazyTree> tree) {
@@ -280,7 +418,7 @@ UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes,
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
     auto outlined = std::make_shared<OutlinedFacets>();
     outlined->vertices = solid.vertices;
-    for (const OutlinedSolid::Facet& f : solid.facets) {
+    for (const OutlinedSolid::Facet& f : facets_ascending(solid)) {
         if (f.whole) {
             out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
             continue;
@@ -329,7 +467,16 @@ bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
 
 bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                      const EvaluateSettings& options) {
-    return may_be_many_meshes(formula, solids, options) && crowd_of(solids) != Crowd::None;
+    if (!may_be_many_meshes(formula, solids, options)) return false;
+    if (crowd_of(solids) != Crowd::None) return true;
+    // What touches in a nested formula is left to cells.
+    return crossings_of(*formula, solids).has_value() && do_stand_on_each_other(solids);
+}
+
+bool do_stand_on_each_other(const SolidStates& solids) {
+    std::vector<Box> boxes;
+    for (const auto& s : solids) boxes.push_back(source_of(*s).box());
+    return do_stand(boxes);
 }
 
 std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula,
@@ -348,7 +495,10 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
     meshes.operands = &*operands;
     Box all;
     for (const auto& s : solids) {
+        const auto slot = static_cast<std::uint32_t>(meshes.sources.size());
         meshes.sources.push_back(&source_of(*s));
+        meshes.slots.insert(meshes.slots.end(), source_of(*s).facet_count(), slot);
+        meshes.planes.add(source_of(*s).mesh());
         all.add(source_of(*s).box());
     }
     for (std::size_t k = 0; k < 3; ++k)

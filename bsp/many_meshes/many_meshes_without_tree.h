@@ -17,10 +17,14 @@ namespace trisect::detail {
 /// memory is limited.
 [[nodiscard]] bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                       const EvaluateSettings& options);
-/// And whether their boxes mostly overlap, or the first one's has half of all: else more is
-/// compared pair by pair than in cells.
+/// And whether their boxes mostly overlap, or stand on each other, or the first one's has half of
+/// all: else more is compared pair by pair than in cells.
 [[nodiscard]] bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                    const EvaluateSettings& options);
+
+/// Whether boxes of at least half of all end where other ones begin, with a part of a plane in
+/// common. \pre may_be_many_meshes() of some formula. O(n log n)
+[[nodiscard]] bool do_stand_on_each_other(const SolidStates& solids);
 
 /// The value of such a formula, with that tree. Nothing where no infinitesimal moves of the meshes
 /// are found that leave nothing of no thickness, or sides are not known. What it returns does not

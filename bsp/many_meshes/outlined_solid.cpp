@@ -3,7 +3,9 @@
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace trisect::detail {
 
@@ -37,6 +39,28 @@ OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool o
         out.box.add(box);
     }
     return out;
+}
+
+void add_apart(OutlinedSolid&& solid, OutlinedSolid& to) {
+    if (to.facets.empty()) {
+        to = std::move(solid);
+        return;
+    }
+    const auto vertex = static_cast<std::uint32_t>(to.vertices.size());
+    const auto edge = static_cast<std::uint32_t>(to.edges.size());
+    to.vertices.insert(to.vertices.end(), solid.vertices.begin(), solid.vertices.end());
+    to.boxes.insert(to.boxes.end(), solid.boxes.begin(), solid.boxes.end());
+    for (OutlinedSolid::Facet& f : solid.facets) {
+        f.first += edge;
+        to.facets.push_back(f);
+    }
+    for (OutlinedSolid::Edge& e : solid.edges) {
+        e.from += vertex;
+        e.to += vertex;
+        to.edges.push_back(e);
+    }
+    std::ranges::move(solid.lines, std::back_inserter(to.lines));
+    to.box.add(solid.box);
 }
 
 }  // namespace trisect::detail

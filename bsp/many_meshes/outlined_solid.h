@@ -17,6 +17,7 @@
 #include <trisect/bsp/cells/source.h>
 #include <trisect/bsp/many_meshes/nested_formula.h>
 #include <trisect/bsp/many_meshes/operand_shifts.h>
+#include <trisect/bsp/many_meshes/planes_across_axes.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -26,7 +27,9 @@ namespace trisect::detail {
 struct ManyMeshes {
     const Crossings* operands = nullptr;  ///< without pairs
     std::vector<const Source*> sources;   ///< by slot
-    Vector3 extent{};                     ///< of all together
+    std::vector<std::uint32_t> slots;     ///< by facet
+    PlanesAcrossAxes planes;
+    Vector3 extent{};  ///< of all together
     const OperandShifts* shifts = nullptr;
     const NestedFormula* nested = nullptr;  ///< if the formula is one; then all operands are as in
                                             ///< an intersection
@@ -36,12 +39,8 @@ struct ManyMeshes {
         return operands->operands[slot].is_open_below() !=
                (nested != nullptr && nested->unites(slot, to));
     }
-    [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const {
-        return static_cast<std::uint32_t>(operands->operand_of(number));
-    }
-    [[nodiscard]] std::size_t facet_count() const {
-        return operands->operands.back().first + sources.back()->facet_count();
-    }
+    [[nodiscard]] std::uint32_t slot_of(std::uint32_t number) const { return slots[number]; }
+    [[nodiscard]] std::size_t facet_count() const { return slots.size(); }
     /// Of a facet by its number.
     [[nodiscard]] std::array<const LatticePoint*, 3> lattice_corners(std::uint32_t number) const {
         const std::uint32_t slot = slot_of(number);
@@ -104,7 +103,7 @@ struct OutlinedSolid {
     };
     using Lines = std::vector<FacetCrossing>;
 
-    std::vector<Facet> facets;      ///< ascending
+    std::vector<Facet> facets;      ///< each once
     std::vector<OutlineBox> boxes;  ///< of their parts
     std::vector<Edge> edges;
     std::vector<OutlineVertex> vertices;
@@ -120,5 +119,9 @@ struct OutlinedSolid {
 /// One operand.
 [[nodiscard]] OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot,
                                           bool open_far_out);
+
+/// Adds the boundary of a solid whose box is apart; both leave open what is far out. `to` is then
+/// what both leave open together.
+void add_apart(OutlinedSolid&& solid, OutlinedSolid& to);
 
 }  // namespace trisect::detail

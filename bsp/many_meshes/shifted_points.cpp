@@ -391,18 +391,57 @@ void ShiftedPoints::note(std::initializer_list<std::uint32_t> facets) const {
     for (const std::uint32_t f : facets) special_.note(f);
 }
 
+void ShiftedPoints::note_side(const OutlineVertex& vertex, std::uint32_t own,
+                              std::uint32_t facet) const {
+    note({own, facet, vertex.facets[0]});
+    if (vertex.kind != OutlineVertex::Kind::Corner) note({vertex.facets[1]});
+    if (vertex.kind == OutlineVertex::Kind::Meeting) note({vertex.facets[2]});
+}
+
 int ShiftedPoints::side(const OutlineVertex& vertex, std::uint32_t own, std::uint32_t facet) const {
+    if (const int side = side_of_plane(vertex, facet); side != 0) {
+        note_side(vertex, own, facet);
+        return side;
+    }
     return with_numbers(meshes_, is_whole(meshes_, vertex) && are_whole(meshes_, {facet}),
                         [&](auto& sides) {
                             const int side = sides.side_of(vertex, sides.plane(facet));
-                            if (!sides.needed_moves()) return side;
-                            note({own, facet, vertex.facets[0]});
-                            if (vertex.kind != OutlineVertex::Kind::Corner)
-                                note({vertex.facets[1]});
-                            if (vertex.kind == OutlineVertex::Kind::Meeting)
-                                note({vertex.facets[2]});
+                            if (sides.needed_moves()) note_side(vertex, own, facet);
                             return side;
                         });
+}
+
+// Of a vertex in the plane of a facet across an axis, because it is a point of another facet there:
+// both are moved along the axis, each with its operand, whatever else meets in the vertex. 0 where
+// that is not so.
+int ShiftedPoints::side_of_plane(const OutlineVertex& vertex, std::uint32_t facet) const {
+    const PlanesAcrossAxes::Plane& plane = meshes_.planes.of(facet);
+    if (plane.way == 0) return 0;
+    const std::size_t count = vertex.kind == OutlineVertex::Kind::Corner   ? 1
+                              : vertex.kind == OutlineVertex::Kind::Pierce ? 2
+                                                                           : 3;
+    std::size_t i = 0;
+    while (i < count && !meshes_.planes.are_same(vertex.facets[i], facet)) ++i;
+    if (i == count) return 0;
+    const std::uint32_t slot = meshes_.slot_of(vertex.facets[i]);
+    const std::uint32_t other = meshes_.slot_of(facet);
+    if (slot == other) return 0;
+    const int axis = plane.axis;
+    const OperandShifts& shifts = *meshes_.shifts;
+    if (shifts.do_grow()) {
+        const Coordinate at = (*meshes_.lattice_corners(facet)[0])[axis];
+        const auto growth = [&](std::uint32_t s) {
+            const OperandShifts::Growth& g = shifts.growth(s);
+            const Coordinate centre = g.centre[axis];
+            return g.sign * (at > centre ? 1 : (at < centre ? -1 : 0));
+        };
+        const std::array<int, 2> up{growth(slot), -growth(other)};
+        const std::size_t first = shifts.growth_rank(slot) < shifts.growth_rank(other) ? 0 : 1;
+        const int sign = up[first] != 0 ? up[first] : up[1 - first];
+        if (sign != 0) return plane.way * sign;
+    }
+    const auto k = static_cast<std::size_t>(axis);
+    return plane.way * (shifts.rank(k, slot) < shifts.rank(k, other) ? 1 : -1);
 }
 
 // The point in the plane of the first one is below or above the other one's; the edge falls or

@@ -65,6 +65,8 @@ public:
 
 private:
     void note(std::initializer_list<std::uint32_t> facets) const;
+    void note_side(const OutlineVertex& vertex, std::uint32_t own, std::uint32_t facet) const;
+    [[nodiscard]] int side_of_plane(const OutlineVertex& vertex, std::uint32_t facet) const;
 
     const ManyMeshes& meshes_;
     SpecialPosition& special_;

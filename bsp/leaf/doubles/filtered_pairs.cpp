@@ -187,6 +187,7 @@ bool FilteredPairs::sweep(FilteredFacets& facets, std::span<const std::uint8_t> 
             if (has_planes_) met &= ~planes_.parted(row, facet, met);
             for (; met != 0; met &= met - 1) {
                 const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
+                if (are_in_plane(candidates_[i].item, candidates_[j].item)) continue;
                 if (has_planes_) {
                     pairs_.push_back(
                         {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
@@ -251,7 +252,7 @@ void FilteredPairs::add_to(Crossings& crossings, const FilteredFacets& facets) c
 
 bool FilteredPairs::compare(FilteredFacets& facets, LeafIndex s, LeafIndex t,
                             EvaluateStats& stats) {
-    if (!facets[s].meets(facets[t].lo, facets[t].hi)) return true;
+    if (are_in_plane(s, t) || !facets[s].meets(facets[t].lo, facets[t].hi)) return true;
     ++stats.pairs_boxes;
     has_partner_[as_index(s)] = has_partner_[as_index(t)] = 1;
     if (add_pair(facets, s, t)) [[likely]]

@@ -81,6 +81,9 @@ public:
         relate_all_but(doubtful, facets, stats);
         by_planes_ = false;
     }
+    /// Pairs that are known to lie in one plane are left out from here on, where they have the same
+    /// number: by item, 0 where nothing is known.
+    void leave_out_planes(std::span<const std::uint32_t> known) { known_planes_ = known; }
     /// relate_all(), with `edges_apart`, for pairs with at least one marked facet.
     [[nodiscard]] bool relate_marked(FilteredFacets& facets, std::span<const std::uint8_t> marks,
                                      EvaluateStats& stats) {
@@ -143,10 +146,15 @@ private:
     [[nodiscard]] bool add_crossing(const FilteredFacets& facets, LeafIndex s, LeafIndex t,
                                     const FacetRows::Relation& relation, unsigned i);
     void list_contacts(LeafIndex count);
+    [[nodiscard]] bool are_in_plane(LeafIndex s, LeafIndex t) const {
+        return !known_planes_.empty() && known_planes_[as_index(s)] != 0 &&
+               known_planes_[as_index(s)] == known_planes_[as_index(t)];
+    }
 
     bool edges_apart_ = false;
     bool by_planes_ = false;
     Doubtful* doubtful_ = nullptr;  // where such pairs are taken out
+    std::span<const std::uint32_t> known_planes_;
     std::vector<Candidate> candidates_;
     std::vector<std::uint8_t> is_candidate_;  // by item
     std::vector<std::uint8_t> has_partner_;   // by item

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/brep.h>
@@ -160,6 +161,61 @@ TEST(CrowdedScenes, AreTheSameWithAnyNumberOfThreads) {
             EXPECT_TRUE(mesh.points == alone.points);
         }
     }
+}
+
+// About an axis along the third one.
+Solid frustum(double z, double lower, double upper, std::uint32_t sides = 30, double x = 0) {
+    trisect::PolygonMesh mesh;
+    for (const auto& [height, radius] : {std::pair(z, lower), std::pair(z + 1, upper)})
+        for (std::uint32_t i = 0; i < sides; ++i) {
+            const double angle = 6.28 * i / sides;
+            mesh.points.push_back({x + radius * std::cos(angle), radius * std::sin(angle), height});
+        }
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const std::uint32_t j = (i + 1) % sides;
+        if (i + 2 < sides) {
+            mesh.add_triangle(0, i + 2, i + 1);
+            mesh.add_triangle(sides, sides + i + 1, sides + i + 2);
+        }
+        mesh.add_triangle(i, j, sides + j);
+        mesh.add_triangle(i, sides + j, sides + i);
+    }
+    trisect::SolidOptions options;
+    options.embedding = trisect::Embedding::Assume;
+    return Solid::from_mesh(mesh, options);
+}
+
+// Where cells would be arranged exactly.
+TEST(CrowdedScenes, ThatStandOnEachOtherGoPairByPair) {
+    std::vector<Solid> solids;
+    for (int i = 0; i < 6; ++i)
+        solids.push_back(frustum(i, i % 2 == 0 ? 1.0 : 0.75, i % 2 == 0 ? 0.75 : 1.0));
+    EvaluateStats stats;
+    const Solid all = evaluate(Expression::any_of(solids), {}, &stats);
+    EXPECT_EQ(stats.exact_leaves, 0U);
+    EXPECT_GT(stats.doubtful_pairs, 0U);
+    EXPECT_FALSE(trisect::detail::state_of(all)->lazy_tree()->is_cut());
+    Solid chain = solids[0];
+    for (std::size_t i = 1; i < solids.size(); ++i) chain = evaluate(chain | solids[i]);
+    const trisect::Brep a = all.to_brep();
+    const trisect::Brep b = chain.to_brep();
+    EXPECT_EQ(exact_volume(a), exact_volume(b));
+    EXPECT_EQ(a.counts(), b.counts());
+    EXPECT_EQ(evaluate(all ^ chain).to_brep().counts().faces, 0U);
+}
+
+// Caps of fans have some 70,000 pairs whose boxes meet.
+TEST(CrowdedScenes, FacetsOfOnePlaneAreNoPairs) {
+    std::vector<Solid> solids;
+    for (int i = 0; i < 4; ++i) solids.push_back(frustum(0, 1, 0.875, 100, 0.25 * i));
+    EvaluateStats stats;
+    const Solid all = evaluate(Expression::any_of(solids), {}, &stats);
+    EXPECT_FALSE(trisect::detail::state_of(all)->lazy_tree()->is_cut());
+    EXPECT_GT(stats.doubtful_pairs, 100U);
+    EXPECT_LT(stats.doubtful_pairs, 30000U);
+    Solid chain = solids[0];
+    for (std::size_t i = 1; i < solids.size(); ++i) chain = evaluate(chain | solids[i]);
+    EXPECT_EQ(exact_volume(all.to_brep()), exact_volume(chain.to_brep()));
 }
 
 }  // namespace
