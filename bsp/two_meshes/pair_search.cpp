@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/two_meshes/facet_clip.h>
 #include <trisect/kernel/support/deep_recursion.h>
+#include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/stack_arena.h>
@@ -32,6 +34,7 @@ namespace {
 class PairFinder;
 
 bool has_long_facets_of(const CellOperand& o);
+bool has_planes_of(const CellOperand& o);
 
 constexpr std::uint64_t many_pairs = 20'000;
 constexpr std::uint64_t many_pairs_of_plane = 100;
@@ -47,6 +50,7 @@ struct SharedSearch {
     Frame frame;
     std::array<FacetClip, 2> clips;
     bool has_long_facets = false;           // set by the finder that begins
+    bool has_planes = false;                // both lists have facets across an axis; set likewise
     std::atomic<bool> has_equal{false};     // all may stop
     std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
     PerThread<PairFinder> finders = {};
@@ -81,6 +85,8 @@ public:
         task.operands = operands;
         search_.has_long_facets = std::ranges::any_of(
             operands, [](const CellOperand& o) { return has_long_facets_of(o); });
+        search_.has_planes =
+            std::ranges::all_of(operands, [](const CellOperand& o) { return has_planes_of(o); });
         solve(task);
     }
     [[nodiscard]] Crossings take_crossings() { return std::move(crossings_); }
@@ -94,6 +100,12 @@ private:
     void divide(const CellTask& task, const SplittingPlane& splitter);
     void compare(const CellTask& task);
     void draw_in_boxes(const CellTask& task);
+    void leave_out_planes();
+    [[nodiscard]] bool settle_plane_of(std::span<const std::uint64_t> all);
+    [[nodiscard]] bool may_have_equal(std::span<const std::uint64_t> all) const;
+    [[nodiscard]] const FilteredFacet& item_of(std::uint64_t e) const {
+        return facets_[static_cast<LeafIndex>(static_cast<std::uint32_t>(e))];
+    }
     void decide(LeafIndex first, LeafIndex second);
     [[nodiscard]] bool is_special(std::size_t operand, const PolygonRef& facet) const {
         const std::vector<std::uint8_t>& marks = is_special_[operand];
@@ -131,6 +143,9 @@ private:
     std::vector<std::pair<std::array<int, 3>, bool>> known_planes_;
     std::vector<std::uint8_t> kept_sides_;  // by facet of the first mesh
     std::vector<PolygonRef> polygons_;
+    // Of the cell that is looked at:
+    std::vector<std::uint32_t> planes_;     // across axes, by item; 0 where there is none
+    std::vector<std::uint64_t> in_planes_;  // those that are not 0, and items
 };
 
 PairFinder& SharedSearch::finder() {
@@ -348,6 +363,7 @@ void PairFinder::compare(const CellTask& task) {
         return;
     }
     if (search_.has_long_facets) draw_in_boxes(task);
+    leave_out_planes();
     pairs_.relate_all_but(doubtful_, facets_, stats_);
     pairs_.add_to(crossings_, facets_);
     for (const auto& [a, b] : doubtful_) decide(a, b);
@@ -358,6 +374,44 @@ FacetCorners corners_of(const PolygonRef& ref) {
     return {at(0), at(1), at(2)};
 }
 
+// Which axis a facet is across; else 3.
+int axis_across(const PolygonRef& ref) {
+    const FacetCorners c = corners_of(ref);
+    int axis = 0;
+    while (axis < 3 && ((*c[0])[axis] != (*c[1])[axis] || (*c[0])[axis] != (*c[2])[axis])) ++axis;
+    return axis;
+}
+
+// Whether some of a list are across an axis, by a sample.
+bool has_planes_of(const CellOperand& o) {
+    constexpr std::uint32_t sample = 256;
+    const std::uint32_t step = std::max(o.count / sample, 1U);
+    for (std::uint32_t i = 0; i < o.count; i += step)
+        if (axis_across(o.polygon(o.entries[i].id)) < 3) return true;
+    return false;
+}
+
+// The plane of a facet, to ask others about: without arithmetic where it is across an axis.
+class PlaneOfFacet {
+public:
+    explicit PlaneOfFacet(const PolygonRef& ref)
+        : axis_(axis_across(ref)), plane_(ref.source->support(ref.facet)) {
+        if (axis_ < 3) at_ = ref.source->corner(ref.facet, 0)[axis_];
+    }
+    [[nodiscard]] bool has(const PolygonRef& ref) const {
+        for (int i = 0; i < 3; ++i) {
+            const LatticePoint& p = ref.source->corner(ref.facet, i);
+            if (axis_ < 3 ? p[axis_] != at_ : sign_of(side_of(p, plane_)) != 0) return false;
+        }
+        return true;
+    }
+
+private:
+    int axis_;
+    Coordinate at_;
+    Plane plane_;
+};
+
 // All facets of two lists in one plane.
 class FacetsOfPlane {
 public:
@@ -366,12 +420,8 @@ public:
         const CellOperand& first = task.operands[0];
         const CellOperand& second = task.operands[1];
         const PolygonRef any = first.polygon(first.entries[0].id);
-        const Plane plane = any.source->support(any.facet);
-        const auto is_in_plane = [&](const PolygonRef& r) {
-            for (int i = 0; i < 3; ++i)
-                if (sign_of(side_of(r.source->corner(r.facet, i), plane)) != 0) return false;
-            return true;
-        };
+        const PlaneOfFacet plane(any);
+        const auto is_in_plane = [&](const PolygonRef& r) { return plane.has(r); };
         // The last ones before all others: they are of another plane most often.
         for (const CellOperand* o : {&second, &first})
             if (!is_in_plane(o->polygon(o->entries[o->count - 1].id))) return false;
@@ -425,6 +475,86 @@ bool PairFinder::settle_side(std::span<const PolygonRef> first, std::span<const 
             return true;
         }
     return false;
+}
+
+// Pairs of facets of one plane across an axis, where both meshes have enough of them.
+void PairFinder::leave_out_planes() {
+    pairs_.leave_out_planes({});
+    if (!search_.has_planes) return;
+    in_planes_.clear();
+    std::array<std::size_t, 2> counts{};
+    for (LeafIndex i = 0; i < facets_.size(); ++i) {
+        const FilteredFacet& f = facets_[i];
+        if (f.lo[0] != f.hi[0] && f.lo[1] != f.hi[1] && f.lo[2] != f.hi[2]) continue;
+        ++counts[as_index(f.operand)];
+        in_planes_.push_back(static_cast<std::uint32_t>(i));
+    }
+    if (counts[0] * counts[1] < many_pairs_of_plane) return;
+    planes_.assign(as_index(facets_.size()), 0);
+    FlatMap numbers;
+    for (std::uint64_t& e : in_planes_) {
+        const PolygonRef& ref = item_of(e).ref;
+        const int axis = axis_across(ref);
+        if (axis == 3) continue;
+        const double at = ref.source->corner(ref.facet, 0)[axis].to_double();
+        const Key128 key{std::bit_cast<std::uint64_t>(at), static_cast<std::uint64_t>(axis)};
+        const auto next = static_cast<std::int32_t>(numbers.size());
+        const auto number = static_cast<std::uint32_t>(numbers.insert(key, next).first) + 1;
+        planes_[e] = number;
+        e |= std::uint64_t{number} << 32;
+    }
+    std::erase_if(in_planes_, [](std::uint64_t e) { return e >> 32 == 0; });
+    std::ranges::sort(in_planes_);
+    bool are_some = false;
+    for (std::span<const std::uint64_t> left(in_planes_); !left.empty();) {
+        std::size_t n = 1;
+        while (n < left.size() && left[n] >> 32 == left[0] >> 32) ++n;
+        const bool is_settled = settle_plane_of(left.first(n));
+        are_some = are_some || is_settled;
+        for (const std::uint64_t e : left.first(n))
+            if (!is_settled) planes_[static_cast<std::uint32_t>(e)] = 0;
+        left = left.subspan(n);
+    }
+    if (are_some) pairs_.leave_out_planes(planes_);
+}
+
+// Whether facets of both have the same box, or hashes as if they had.
+bool PairFinder::may_have_equal(std::span<const std::uint64_t> all) const {
+    FlatMap of_first;
+    for (const LeafIndex operand : {0, 1})
+        for (const std::uint64_t e : all) {
+            const FilteredFacet& f = item_of(e);
+            if (f.operand != operand) continue;
+            Key128 key;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto [low, high] =
+                    std::minmax({f.corners[0][k], f.corners[1][k], f.corners[2][k]});
+                key.a = mix64(key.a ^ std::bit_cast<std::uint64_t>(low));
+                key.b = mix64(key.b ^ std::bit_cast<std::uint64_t>(high));
+            }
+            if (operand == 0) of_first.insert(key, 0);
+            if (operand == 1 && of_first.find(key) >= 0) return true;
+        }
+    return false;
+}
+
+bool PairFinder::settle_plane_of(std::span<const std::uint64_t> all) {
+    std::array<std::array<std::vector<PolygonRef>, 2>, 2> facing;  // by mesh and way
+    std::array<std::size_t, 2> counts{};
+    for (const std::uint64_t e : all) ++counts[as_index(item_of(e).operand)];
+    if (counts[0] * counts[1] < many_pairs_of_plane) return false;
+    if (search_.recognises_equal && may_have_equal(all)) return false;
+    const std::array<int, 3> normal = normal_signs(corners_of(item_of(all[0]).ref));
+    for (const std::uint64_t e : all) {
+        const FilteredFacet& f = item_of(e);
+        const std::size_t way = normal_signs(corners_of(f.ref)) == normal ? 0 : 1;
+        facing[as_index(f.operand)][way].push_back(f.ref);
+    }
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j)
+            if (!settle_side(facing[0][i], facing[1][j], i == j)) return false;
+    for (const std::uint64_t e : all) note_special(as_index(item_of(e).operand), item_of(e).ref);
+    return true;
 }
 
 // To those of the list, which are of what of long facets lies near the other mesh's.
