@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <trisect/kernel/stop_scope.h>
+
 #include "engines.h"
 #include "evaluate_stats.h"
 
@@ -61,6 +63,7 @@ Expression all_of(Kind kind, std::size_t first, std::size_t end) {
     return Expression::node(kind, std::move(terms));
 }
 
+// Pair by pair where they go so, and by cells: a limit of work is counted by these.
 TEST(CrowdedFormulas, OneOperationOnTheSmallGrid) {
     std::uint64_t halved = 0;
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {
@@ -68,11 +71,16 @@ TEST(CrowdedFormulas, OneOperationOnTheSmallGrid) {
         reference::Random random(seed + 510000);
         const std::size_t n = 6 + seed % 4;
         const auto operands = reference::random_family(random, n, true);
+        std::vector<Expression> all;
         for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Xor})
-            halved += expect_agreement(operands, all_of(kind, 0, n));
-        halved += expect_agreement(
-            operands,
+            all.push_back(all_of(kind, 0, n));
+        all.push_back(
             Expression::node(Kind::Difference, {Expression::leaf(0), all_of(Kind::Union, 1, n)}));
+        for (const Expression& e : all) {
+            expect_agreement(operands, e);
+            const trisect::StopScope by_cells({.max_work = std::uint64_t{1} << 60});
+            halved += expect_agreement(operands, e);
+        }
     }
     EXPECT_GT(halved, 100U);
 }
