@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 
@@ -28,8 +29,16 @@ bool are_on_demand() {
     return std::getline(file, line) && line.find("[madvise]") != std::string::npos;
 }
 
-/// Whether the arguments name meshes and models and no other files, and all of these together are
-/// small. Other files, say a manifest, name further ones.
+/// Programs in OpenSCAD's evaluated form gain nothing from large pages, unless they read files.
+bool is_program_alone(const std::filesystem::path& path) {
+    if (path.extension() != ".csg") return false;
+    std::ifstream file(path, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    return text.find("import") == std::string::npos && text.find("surface") == std::string::npos;
+}
+
+/// Whether the arguments name meshes, models and programs and no other files, and all of these
+/// together are small. Other files, say a manifest, name further ones.
 bool name_little(int argc, char** argv) {
     constexpr std::uintmax_t little = 256 << 10;
     std::uintmax_t bytes = 0;
@@ -37,12 +46,13 @@ bool name_little(int argc, char** argv) {
         std::error_code failed;
         const std::filesystem::path path(argv[i]);
         if (!std::filesystem::exists(path, failed)) continue;
-        if (!mesh_format_of_extension(path)) return false;
         const std::uintmax_t size = std::filesystem::file_size(path, failed);
         if (failed) return false;
         bytes += size;
+        if (bytes > little) return false;
+        if (!mesh_format_of_extension(path) && !is_program_alone(path)) return false;
     }
-    return bytes > 0 && bytes <= little;
+    return bytes > 0;
 }
 
 }  // namespace
