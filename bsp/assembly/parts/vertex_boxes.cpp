@@ -58,8 +58,8 @@ std::uint32_t VertexBoxes::parted_at(std::uint32_t begin, std::uint32_t end) {
     const std::span<Vertex> all = vertices_.subspan(begin, end - begin);
     const double middle = lo[axis] + (hi[axis] - lo[axis]) / 2;
     const auto above =
-        std::ranges::partition(all, [&](const Vertex& v) { return v.c[axis] < middle; });
-    const auto part = static_cast<std::uint32_t>(all.size() - above.size());
+        std::partition(all.begin(), all.end(), [&](const Vertex& v) { return v.c[axis] < middle; });
+    const auto part = static_cast<std::uint32_t>(above - all.begin());
     const std::uint32_t least = (end - begin) / 8;
     if (part > least && end - begin - part > least) return begin + part;
     const std::uint32_t half = (end - begin) / 2;
