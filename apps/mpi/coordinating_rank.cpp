@@ -104,7 +104,7 @@ void CoordinatingRank::read_manifest() {
     }
     for (auto* const names : {&all.files, &all.groups}) {
         std::ranges::sort(*names);
-        names->erase(std::ranges::unique(*names).begin(), names->end());
+        names->erase(std::unique(names->begin(), names->end()), names->end());
     }
     auto head =
         station_.manifest().head(std::move(all.files), std::move(all.groups), long_text_id(blocks));

@@ -230,8 +230,10 @@ std::vector<Json> Coordinator::undone() const {
 
 ClashReport Coordinator::take_report() {
     std::ranges::sort(manifest_.parts, {}, &ClashPart::id);
-    const auto twice = std::ranges::unique(manifest_.parts, {}, &ClashPart::id);
-    manifest_.parts.erase(twice.begin(), twice.end());
+    const auto twice =
+        std::unique(manifest_.parts.begin(), manifest_.parts.end(),
+                    [](const ClashPart& a, const ClashPart& b) { return a.id == b.id; });
+    manifest_.parts.erase(twice, manifest_.parts.end());
     ClashReport out;
     out.manifest = options_.manifest;
     out.clashes = std::exchange(clashes_, {});

@@ -24,7 +24,7 @@ std::uint64_t stride_of(std::uint64_t parts) {
 void add_names(std::vector<std::string>& to, const std::vector<std::string>& names) {
     to.insert(to.end(), names.begin(), names.end());
     std::ranges::sort(to);
-    to.erase(std::ranges::unique(to).begin(), to.end());
+    to.erase(std::unique(to.begin(), to.end()), to.end());
 }
 
 // Places of names in a sorted list that has all of them.
@@ -181,7 +181,7 @@ void PartSource::route(const RegionPlan& plan, double clearance,
                 posed_box(*files[part.file].box, part.pose), clearance,
                 [&](std::uint32_t region) { owners.push_back(plan.owner(region, ranks)); });
             std::ranges::sort(owners);
-            owners.erase(std::ranges::unique(owners).begin(), owners.end());
+            owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
             for (const std::size_t owner : owners)
                 if (owner != own) lists.add(owner, part);
             if (std::ranges::binary_search(owners, own)) keep(std::move(part));

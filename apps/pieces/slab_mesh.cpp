@@ -145,8 +145,9 @@ bool SlabMesh::are_in_line(std::uint32_t a, std::uint32_t b, std::uint32_t c) co
 // From its highest corner down both sides, so that triangles stay short across.
 void SlabMesh::fill_cycle(std::vector<std::uint32_t> cycle) {
     const std::size_t k = (range_.axis + 1) % 3;
-    std::ranges::rotate(
-        cycle, std::ranges::max_element(cycle, {}, [&](std::uint32_t c) { return points_[c][k]; }));
+    const auto highest =
+        std::ranges::max_element(cycle, {}, [&](std::uint32_t c) { return points_[c][k]; });
+    std::rotate(cycle.begin(), highest, cycle.end());
     std::size_t low = 0;
     std::size_t high = cycle.size() - 1;
     while (high - low >= 2) {

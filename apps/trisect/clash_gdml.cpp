@@ -143,7 +143,7 @@ private:
         std::vector<std::uint32_t> wanted;
         for (const Member& m : members_) wanted.push_back(m.solid);
         std::ranges::sort(wanted);
-        wanted.erase(std::ranges::unique(wanted).begin(), wanted.end());
+        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
         made_ = solids_.make(wanted, session_.evaluation_options(options_.operands));
         models_.resize(made_.size());
         boxes_.resize(made_.size());

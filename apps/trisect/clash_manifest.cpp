@@ -142,7 +142,7 @@ private:
     void sort_files() {
         std::vector<std::string> sorted = out_.files;
         std::ranges::sort(sorted);
-        sorted.erase(std::ranges::unique(sorted).begin(), sorted.end());
+        sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
         for (ClashPart& part : out_.parts)
             part.file = static_cast<std::uint32_t>(
                 std::ranges::lower_bound(sorted, out_.files[part.file]) - sorted.begin());
