@@ -126,7 +126,7 @@ void CoordinatingRank::begin() {
     const std::vector<std::string> old = journals();
     FinishedPieces done;
     if (options_.clash.resume) done = read_journals(old, start_.key);
-    coordinator_.emplace(session_, options_.clash, manifest_, done, all_.size());
+    coordinator_.emplace(options_.clash, manifest_, done, all_.size());
     station_.take_over(std::move(done));
     ranks_.send(0, Ranks::Start, bytes_of(start_));
     attend([&] { return all_.front().is_ready; });

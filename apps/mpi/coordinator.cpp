@@ -30,10 +30,9 @@ std::uint64_t size_of(const std::string& file) {
 
 }  // namespace
 
-Coordinator::Coordinator(Session& session, const ClashOptions& options, ClashManifest& manifest,
+Coordinator::Coordinator(const ClashOptions& options, ClashManifest& manifest,
                          const FinishedPieces& done, std::size_t ranks)
-    : session_(session),
-      options_(options),
+    : options_(options),
       manifest_(manifest),
       files_(manifest.files.size()),
       knows_file_(files_.size()),

@@ -39,8 +39,8 @@ class Coordinator {
 public:
     /// \param manifest without parts; gets those of clashes
     /// \param done pieces of earlier runs, which are not done again
-    Coordinator(Session& session, const ClashOptions& options, ClashManifest& manifest,
-                const FinishedPieces& done, std::size_t ranks);
+    Coordinator(const ClashOptions& options, ClashManifest& manifest, const FinishedPieces& done,
+                std::size_t ranks);
 
     [[nodiscard]] bool has_all_files() const { return files_left_ == 0; }
     /// Where a file is missing, its box is none.
@@ -92,7 +92,6 @@ private:
     }
     [[nodiscard]] std::vector<Json> undone() const;
 
-    Session& session_;
     const ClashOptions& options_;
     ClashManifest& manifest_;
     std::vector<ClashFile> files_;

@@ -135,7 +135,7 @@ TEST_F(SlabRunTest, SharesDoNotShow) {
     const std::string a = write_mesh_file("a.ply", trisect::make_icosphere(40, 3));
     const std::string b = write_mesh_file("b.ply", trisect::make_torus(30, 9, 40, 20));
     std::vector<std::string> bytes;
-    for (const std::size_t shares : {1, 2, 5}) {
+    for (const std::size_t shares : {1U, 2U, 5U}) {
         SlabOptions asked = options("union", a, b);
         asked.natives = "";
         asked.slabs = 5;
