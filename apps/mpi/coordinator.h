@@ -15,7 +15,6 @@
 #include "trisect/clash_report.h"
 #include "trisect/failure.h"
 #include "trisect/options.h"
-#include "trisect/session.h"
 
 namespace trisect::app {
 

@@ -15,19 +15,29 @@ namespace {
 
 constexpr std::uint32_t few = 8;  // vertices that are not parted
 
+struct VertexExtent {
+    std::array<double, 3> lo;
+    std::array<double, 3> hi;
+};
+
+// \pre there are any
+VertexExtent box_of_vertices(std::span<const VertexBoxes::Vertex> vertices) {
+    VertexExtent out{vertices[0].c, vertices[0].c};
+    for (const VertexBoxes::Vertex& v : vertices.subspan(1))
+        for (std::size_t k = 0; k < 3; ++k) {
+            out.lo[k] = std::min(out.lo[k], v.c[k]);
+            out.hi[k] = std::max(out.hi[k], v.c[k]);
+        }
+    return out;
+}
+
 }  // namespace
 
 void VertexBoxes::build(std::span<Vertex> vertices) {
     vertices_ = vertices;
     nodes_.clear();
     if (vertices.empty()) return;
-    std::array<double, 3> lo = vertices[0].c;
-    std::array<double, 3> hi = lo;
-    for (const Vertex& v : vertices)
-        for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], v.c[k]);
-            hi[k] = std::max(hi[k], v.c[k]);
-        }
+    const auto [lo, hi] = box_of_vertices(vertices);
     double largest = 0;
     double extent = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -45,13 +55,7 @@ void VertexBoxes::build(std::span<Vertex> vertices) {
 // In the middle of their box: those of one plane across the axis stay together. Where that leaves
 // less than an eighth on one side, in two halves of a size; so the depth is some bits of a number.
 std::uint32_t VertexBoxes::parted_at(std::uint32_t begin, std::uint32_t end) {
-    std::array<double, 3> lo = vertices_[begin].c;
-    std::array<double, 3> hi = lo;
-    for (std::uint32_t i = begin + 1; i < end; ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], vertices_[i].c[k]);
-            hi[k] = std::max(hi[k], vertices_[i].c[k]);
-        }
+    const auto [lo, hi] = box_of_vertices(vertices_.subspan(begin, end - begin));
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
         if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
@@ -83,13 +87,7 @@ void VertexBoxes::part(Node& node, std::uint32_t begin, std::uint32_t end, int l
 
 void VertexBoxes::set_box(Node& node, std::uint32_t child, std::uint32_t begin,
                           std::uint32_t end) const {
-    std::array<double, 3> lo = vertices_[begin].c;
-    std::array<double, 3> hi = lo;
-    for (std::uint32_t i = begin + 1; i < end; ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], vertices_[i].c[k]);
-            hi[k] = std::max(hi[k], vertices_[i].c[k]);
-        }
+    const auto [lo, hi] = box_of_vertices(vertices_.subspan(begin, end - begin));
     for (std::size_t k = 0; k < 3; ++k) {
         const auto middle = static_cast<float>((lo[k] + (hi[k] - lo[k]) / 2) - origin_[k]);
         const double at = origin_[k] + static_cast<double>(middle);
