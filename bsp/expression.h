@@ -94,7 +94,7 @@ struct EvaluateCounters {
     std::uint64_t pairs_boxes = 0;      ///< polygon pairs whose boxes overlap, in mixed leaves
     std::uint64_t pairs_touching = 0;   ///< of them, pairs in contact
     std::uint64_t pairs_cutting = 0;    ///< of those, pairs where one cuts the other
-    std::uint64_t doubtful_pairs = 0;   ///< of two large meshes: pairs that took integers
+    std::uint64_t doubtful_pairs = 0;   ///< of two large meshes: pairs that a filter left open
     /// Polygons of mixed leaves that nothing is in contact with: they pass through as they are.
     std::uint64_t untouched_polygons = 0;
     std::uint64_t pieces = 0;  ///< convex pieces made in mixed leaves, but for cutting put off
