@@ -10,11 +10,14 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "certificate.h"
 #include "commands.h"
 #include "mesh_files.h"
 #include "output_name.h"
@@ -31,8 +34,35 @@ CsgTree read_program(const std::string& name) {
     return parse_csg(bytes.view(), name == "-" ? "standard input" : name);
 }
 
+/// Of the mesh that is written.
+struct EvalCertificate {
+    std::optional<Certificate> certificate;
+    std::size_t divided = 0;  ///< triangles more, since edges lie in faces
+};
+
+bool is_mesh(const std::string& output) {
+    return !has_exact_boundary(output) && !has_native_name(output);
+}
+
+/// Checks the triangles as the format holds them, and divides those that edges lie in. Faces of
+/// STEP are written as they are.
+EvalCertificate certified(const Session& session, const EvalOptions& options,
+                          const ExactMesh& exact, PolygonMesh& mesh) {
+    EvalCertificate out;
+    if (!options.certificate || !is_mesh(options.output)) return out;
+    const MeshFormat format = output_format(session, options.output);
+    out.certificate = certify_output(exact, mesh, format);
+    if (format == MeshFormat::Step) return out;
+    const std::size_t before = mesh.face_count();
+    std::vector<FaceSource> no_sources;
+    if (divide_output(mesh, no_sources, *out.certificate, format))
+        out.divided = mesh.face_count() - before;
+    return out;
+}
+
 void write_result(Session& session, const std::string& output, const Solid& solid,
                   const PolygonMesh& mesh) {
+    if (has_native_name(output)) return write_native_output(session, output, solid);
     if (has_exact_boundary(output))
         return session.write_output(output, exact_text(solid.to_brep()));
     const MeshFormat format = output_format(session, output);
@@ -78,13 +108,16 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
     command->add_option("MODEL", options.input, ".csg file; '-' is the standard input")->required();
     command
         ->add_option("-o,--output", options.output,
-                     "mesh, or exact boundary (.exact); '-' is the standard output")
+                     "mesh, exact boundary (.exact) or native file (.trisect); '-' is the standard "
+                     "output")
         ->required();
     command->add_flag("--watch", options.watch,
                       "evaluate again whenever the program or a file that it reads changes, until "
                       "interrupted; only what changed is evaluated");
     command->add_flag("--missing-files-empty", options.missing_files_are_empty,
                       "a file that is not there is an empty set, with a remark, not an error");
+    command->add_flag("!--no-certificate", options.certificate,
+                      "do not check the rounded result for self-intersection; --watch never does");
     command->add_flag("--summary", options.summary,
                       "also numbers of nodes and shapes, volume and time");
 }
@@ -103,6 +136,15 @@ Json document_of(const EvalOptions& options, const CsgReport& report) {
     out["flat"] = report.is_flat;
     out["remarks"] = report.remarks;
     return out;
+}
+
+/// What a user of the file must hear of.
+void say_certificate(Session& session, const EvalOptions& options, const EvalCertificate& made) {
+    if (made.certificate && !made.certificate->holds())
+        session.note(options.output + ": certified " + to_text(*made.certificate));
+    if (made.divided > 0)
+        session.note(fmt::format("{}: edges lie in faces: these have {} triangles more",
+                                 options.output, made.divided));
 }
 
 void say_remarks(Session& session, const CsgReport& report) {
@@ -180,9 +222,9 @@ Outcome watch(Session& session, const EvalOptions& options) {
 }  // namespace
 
 Outcome run_eval(Session& session, const EvalOptions& options) {
-    if (!has_exact_boundary(options.output)) (void)output_format(session, options.output);
+    if (is_mesh(options.output)) (void)output_format(session, options.output);
     check_outputs(session, {options.output});
-    session.plan(4);
+    session.plan(5);
     if (options.watch) {
         if (options.input == "-" || options.output == "-" || options.summary)
             throw UsageError(
@@ -208,8 +250,13 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         out.document["volume"] = volume(boundary);
         return boundary;
     });
-    session.stage("write",
-                  [&] { write_result(session, options.output, solid, to_polygon_mesh(mesh)); });
+    PolygonMesh rounded = to_polygon_mesh(mesh);
+    const EvalCertificate made = session.interruptible_stage(
+        "certify", [&] { return certified(session, options, mesh, rounded); });
+    say_certificate(session, options, made);
+    out.document["certificate"] = made.certificate ? to_json(*made.certificate) : Json();
+    out.document["divided"] = made.divided;
+    session.stage("write", [&] { write_result(session, options.output, solid, rounded); });
     out.document["seconds"] = session.seconds();
     if (options.summary) out.remarks = summary_of(report, out.document);
     return out;

@@ -24,6 +24,26 @@ TEST_F(EvalCommand, WritesTheSolid) {
     EXPECT_EQ(trisect({"info", path("m.off"), "--json"}).json()["volume"], 56);
     EXPECT_EQ(trisect({"eval", model_, "-o", path("m.exact")}).code, 0);
     EXPECT_TRUE(exists("m.exact"));
+    EXPECT_EQ(trisect({"eval", model_, "-o", path("m.trisect")}).code, 0);
+    EXPECT_EQ(trisect({"info", path("m.trisect"), "--json"}).json()["volume"], 56);
+}
+
+TEST_F(EvalCommand, AFaceIsDividedWhereAnEdgeLiesInIt) {
+    // A roof that stands on its ridge, inside the top of a box.
+    const std::string roof =
+        write("roof.csg",
+              "union() { cube(size = [4, 4, 2]);\n"
+              "polyhedron(points = [[1,1,2],[0,1,4],[2,1,4],[1,3,2],[0,3,4],[2,3,4]],\n"
+              "faces = [[0,1,2],[5,4,3],[3,4,1,0],[5,3,0,2],[4,5,2,1]]); }\n");
+    const Finished run = trisect({"eval", roof, "-o", path("roof.off"), "--json"});
+    EXPECT_TRUE(run.json()["certificate"]["certified"]) << run.json();
+    EXPECT_EQ(run.json()["divided"], 4);
+    EXPECT_NE(run.err.find("edges lie in faces"), std::string::npos) << run.err;
+    EXPECT_EQ(trisect({"check", path("roof.off"), "--json"}).json()["errors"], 0);
+    const json without =
+        trisect({"eval", roof, "-o", path("roof.off"), "--json", "--no-certificate"}).json();
+    EXPECT_TRUE(without["certificate"].is_null());
+    EXPECT_EQ(without["divided"], 0);
 }
 
 TEST_F(EvalCommand, StreamsAndSummary) {
