@@ -5,11 +5,12 @@
 //
 //     chain_queries [--level N] [--cuts N] [--every N] [--path] [--unrefined] [--interference]
 //                   [--small-holder] [--asked] [--repeat N] [--chains N] [--rebuild N] [--models]
-//                   [--bytes] [--memory] [--count N]
+//                   [--bytes] [--memory] [--count N] [--plate]
 //
-// --level: the stock has 20 · 4^N triangles. --unrefined: it is not divided beforehand. --path:
-// cuts follow each other instead of lying all over the stock. --every: after so many cuts 20,000
-// points, one by one and as a batch, and a fresh index beside.
+// --level: the stock has 20 · 4^N triangles. --plate: it is a rough plate, which is the same about
+// each cut at every size, and no sphere, which is flatter there the larger it is. --unrefined: it
+// is not divided beforehand. --path: cuts follow each other instead of lying all over the stock.
+// --every: after so many cuts 20,000 points, one by one and as a batch, and a fresh index beside.
 // --interference: a holder above each cut, by the solids themselves: first placed anew each time,
 // then by a query that goes on. Above the cut its whole rim is equally near, beside it is not.
 // --small-holder: as large as the ball that cuts, so as many facets are near whatever their number.
@@ -77,6 +78,7 @@ struct Options {
     bool bytes = false;
     bool memory = false;
     bool small_holder = false;
+    bool plate = false;
 };
 
 Options parsed(int argc, char** argv) {
@@ -114,6 +116,8 @@ Options parsed(int argc, char** argv) {
             o.memory = true;
         } else if (arg == "--small-holder") {
             o.small_holder = true;
+        } else if (arg == "--plate") {
+            o.plate = true;
         } else {
             throw std::runtime_error("unknown option " + arg);
         }
@@ -140,7 +144,8 @@ public:
     Chain(const Options& o, ChainSeries& series)
         : options_(o),
           series_(series),
-          cuts_(o.level, o.path, o.small_holder),
+          cuts_(o.plate ? ChainCuts::Shape::Plate : ChainCuts::Shape::Sphere, o.level, o.path,
+                o.small_holder),
           stock_(solid_of(cuts_.stock())),
           holder_(solid_of(cuts_.holder())),
           rebuild_(cuts_.holder(), o.models) {
@@ -187,32 +192,22 @@ private:
     // little off the stock.
     [[nodiscard]] ChainQuestions questions_at(const Point3d& at) const {
         const double r = cuts_.radius();
-        const double h = cuts_.holder_radius();
-        // Turned about the axis that is most across it, by four radii of the cut.
-        std::size_t axis = 0;
-        for (std::size_t k = 1; k < 3; ++k)
-            if (std::fabs(at[k]) < std::fabs(at[axis])) axis = k;
-        const std::size_t u = (axis + 1) % 3;
-        const std::size_t v = (axis + 2) % 3;
-        Point3d aside = ChainCuts::times(at, 1 + h + 0.1 * r);
-        const double x = aside[u];
-        aside[u] = std::cos(4 * r) * x - std::sin(4 * r) * aside[v];
-        aside[v] = std::sin(4 * r) * x + std::cos(4 * r) * aside[v];
-        return {ChainCuts::times(at, 1 - 0.9 * r), ChainCuts::times(at, 3),
-                ChainCuts::times(at, 1 + 2 * r), ChainCuts::times(at, 1 + h + 0.1 * r), aside};
+        const double holder = cuts_.holder_radius() + 0.1 * r;
+        return {cuts_.above(at, -0.9 * r), cuts_.above(at, 2),      cuts_.middle(at),
+                cuts_.above(at, 2 * r),    cuts_.above(at, holder), cuts_.aside(at, holder)};
     }
 
     void ask_all_over() {
         const BrepIndex index(stock_);
         constexpr int count = 20'000;
         for (int i = 0; i < count; ++i) {
-            const Point3d at = ChainCuts::on_spiral(i, count);
+            const Point3d at = cuts_.spread(i, count);
             const ChainQuestions q = questions_at(at);
             sum_ += static_cast<std::size_t>(index.locate(q.near).location);
-            sum_ += index.first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
+            sum_ += index.first_facet(trisect::Segment{q.far, q.middle}) ? 1 : 0;
             sum_ += index.distance(q.above) ? 1 : 0;
             if (!options_.interference) continue;
-            const Point3d on = ChainCuts::times(at, 1 + cuts_.holder_radius());
+            const Point3d on = cuts_.above(at, cuts_.holder_radius());
             const Pose touching = Pose::from_translation(on);
             sum_ += static_cast<std::size_t>(interfere(stock_, Pose(), holder_, touching).relation);
         }
@@ -231,7 +226,7 @@ private:
         series_.locate.add(
             counters_, [&] { sum_ += static_cast<std::size_t>(index->locate(q.near).location); });
         series_.ray.add(counters_, [&] {
-            sum_ += index->first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
+            sum_ += index->first_facet(trisect::Segment{q.far, q.middle}) ? 1 : 0;
         });
         series_.nearest.add(counters_, [&] { sum_ += index->distance(q.above) ? 1 : 0; });
         if (options_.interference)
@@ -261,8 +256,8 @@ private:
         std::vector<Point3d> uniform;
         std::vector<Point3d> near;
         for (std::size_t k = 0; k < count; ++k) {
-            uniform.push_back(cuts_.in_cube());
-            near.push_back(cuts_.on_sphere(1 + 0.01 * (cuts_.uniform() - 0.5)));
+            uniform.push_back(cuts_.in_box());
+            near.push_back(cuts_.near_surface(0.005));
         }
         const BrepIndex index(stock_);
         const BrepIndex fresh(solid_of(stock_.to_mesh()));
@@ -307,7 +302,7 @@ private:
             const ChainQuestions q = questions_at(at);
             const BrepIndex index(stock_);
             sum_ += static_cast<std::size_t>(index.locate(q.near).location);
-            sum_ += index.first_facet(trisect::Segment{q.far, {0, 0, 0}}) ? 1 : 0;
+            sum_ += index.first_facet(trisect::Segment{q.far, q.middle}) ? 1 : 0;
             sum_ += index.distance(q.above) ? 1 : 0;
             if (!options_.interference) continue;
             const Pose pose = Pose::from_translation(q.holder);

@@ -71,7 +71,8 @@ void ChainRebuild::ask_cgal([[maybe_unused]] const PolygonMesh& mesh,
         std::array<query_peers::Side, 1> side{};
         peer->locate(std::span(&q.near, 1), side);
         std::array<std::int64_t, 1> hit{};
-        const trisect::Point3d inwards{-q.far[0], -q.far[1], -q.far[2]};
+        const trisect::Point3d inwards{q.middle[0] - q.far[0], q.middle[1] - q.far[1],
+                                       q.middle[2] - q.far[2]};
         const query_peers::Ray ray{q.far, inwards};
         peer->first_hits(std::span(&ray, 1), hit);
         std::array<double, 1> distance{};

@@ -13,10 +13,11 @@
 /// Questions beside a cut.
 struct ChainQuestions {
     trisect::Point3d near{};    ///< a point in the stock, to be located
-    trisect::Point3d far{};     ///< whence a ray goes to the origin
+    trisect::Point3d far{};     ///< whence a ray goes to the middle
+    trisect::Point3d middle{};  ///< of the stock, below the cut
     trisect::Point3d above{};   ///< a point off the stock, to whose nearest point is asked
     trisect::Point3d holder{};  ///< where the holder's middle is, above the cut
-    trisect::Point3d aside{};   ///< the same beside the cut, off what is left of the sphere
+    trisect::Point3d aside{};   ///< the same beside the cut, off what is left of the surface
 };
 
 /// Rows of what is rebuilt: this library's index and model, and where they are there the
