@@ -3,6 +3,7 @@
 // A stock, the balls that cut it one after the other, and where questions are asked beside them.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -144,8 +145,8 @@ private:
         const std::uint32_t below = (n + 1) * (n + 1);
         const auto square = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                 std::uint32_t d) {
-            mesh.add_face({a, b, c});
-            mesh.add_face({a, c, d});
+            mesh.add_face(std::array{a, b, c});
+            mesh.add_face(std::array{a, c, d});
         };
         for (std::uint32_t i = 0; i < n; ++i)
             for (std::uint32_t j = 0; j < n; ++j) {
