@@ -102,6 +102,12 @@ struct Box {
     const std::int64_t above = (from % 6 + 6) % 6;  // the multiple of six below
     return above == 0 ? from : from - above + (direction > 0 ? 6 : 0);
 }
+/// How far from a splitting plane of the usual offset the first reference point is tried: below and
+/// above it, by its axis. Two coordinates of such points, in 1/32 units, have no integer relation
+/// with coefficients below five, so that a way along the third axis passes no edge that lies along
+/// or across the diagonal of a square, or of five in a row: those of height fields.
+inline constexpr std::array<std::array<std::int64_t, 3>, 2> first_reference_steps{
+    {{15, 27, 39}, {3, 27, 111}}};
 [[nodiscard]] constexpr bool may_be_splitter(std::int64_t position) {
     return position % 2 != 0 && position % 3 != 0;
 }

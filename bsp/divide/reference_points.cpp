@@ -149,7 +149,8 @@ bool place_reference(const CellTask& task, const SplittingPlane& splitter, int w
     }
     // Straight through the splitting plane; the segment hits little.
     FinePoint p = task.reference;
-    for (const std::int64_t step : {3, 37, 59, 101}) {
+    const std::int64_t first = first_reference_steps[static_cast<std::size_t>(which)][k];
+    for (const std::int64_t step : {first, std::int64_t{37}, std::int64_t{59}, std::int64_t{101}}) {
         const std::int64_t direction = which == 0 ? -1 : 1;
         p.c[k] = reference_position(splitter.position + direction * step, direction);
         if (out.cell.contains(p) && pass_splitter(task, splitter, p, other_side, out)) return true;

@@ -96,10 +96,16 @@ private:
     [[nodiscard]] std::optional<std::array<ListInCell, 2>> divided(const ListInCell& list,
                                                                    const Cut& cut,
                                                                    Scratch& scratch) const;
+    [[nodiscard]] std::optional<KnownPoint> moved(const ListInCell& list, const KnownPoint& from,
+                                                  std::size_t axis, std::int64_t to) const;
+    [[nodiscard]] std::optional<KnownPoint> moved_beyond(const ListInCell& list,
+                                                         const KnownPoint& from, const Cell& cell,
+                                                         const SplittingPlane& splitter,
+                                                         bool above) const;
     [[nodiscard]] std::optional<KnownPoint> reference_beyond(const ListInCell& list,
-                                                             const Cell& cell, int axis,
-                                                             std::int64_t splitter,
-                                                             std::int64_t direction) const;
+                                                             const Cell& cell,
+                                                             const SplittingPlane& splitter,
+                                                             bool above) const;
     [[nodiscard]] std::shared_ptr<const CellNode> split(const ListInCell& list, int level,
                                                         Scratch& scratch) const;
     [[nodiscard]] std::array<CellRef, 2> nodes_of(const std::array<ListInCell, 2>& halves,
@@ -176,28 +182,59 @@ std::optional<Cut> Halving::longest(const ListInCell& list, int shortest) const 
     return cut;
 }
 
-// The list's reference moved through the splitting plane, with the winding number there.
-std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, const Cell& cell,
-                                                    int axis, std::int64_t splitter,
-                                                    std::int64_t direction) const {
-    const auto k = static_cast<std::size_t>(axis);
-    const KnownPoint& from = list.reference;
-    for (const std::int64_t step : {3, 37, 59, 101, 1001, 10001}) {
+// A point and the winding number there, moved along an axis; nothing where the way passes an edge
+// or a corner.
+std::optional<KnownPoint> Halving::moved(const ListInCell& list, const KnownPoint& from,
+                                         std::size_t axis, std::int64_t to) const {
+    FinePoint p = from.at;
+    p.c[axis] = to;
+    AxisTrace trace(from.at, p, static_cast<int>(axis));
+    Box segment;
+    for (std::size_t i = 0; i < 3; ++i) {
+        segment.lo[i] = lattice_below(std::min(p.c[i], from.at.c[i])) - 1;
+        segment.hi[i] = lattice_below(std::max(p.c[i], from.at.c[i])) + 2;
+    }
+    const PackedReach reach(PackedBox::of(frame_, segment));
+    for (const auto& part : {list.contained, list.crossing})
+        for (const PackedBox& e : part)
+            if (reach.meets(e) && source_.facet_box(e.id).overlaps(segment))
+                trace.add({&source_, nullptr, e.id, leaf_.polygons().flipped(), false});
+    const auto change = trace.change(false);
+    if (!change) return std::nullopt;
+    return KnownPoint{p, from.winding + *change};
+}
+
+// A point moved straight through a splitting plane, into a cell.
+std::optional<KnownPoint> Halving::moved_beyond(const ListInCell& list, const KnownPoint& from,
+                                                const Cell& cell, const SplittingPlane& splitter,
+                                                bool above) const {
+    const auto k = static_cast<std::size_t>(splitter.axis);
+    const std::int64_t direction = above ? 1 : -1;
+    for (const std::int64_t step :
+         {first_reference_steps[above ? 1 : 0][k], std::int64_t{37}, std::int64_t{59},
+          std::int64_t{101}, std::int64_t{1001}, std::int64_t{10001}}) {
         FinePoint p = from.at;
-        p.c[k] = reference_position(splitter + direction * step, direction);
+        p.c[k] = reference_position(splitter.position + direction * step, direction);
         if (!cell.contains(p)) continue;
-        AxisTrace trace(from.at, p, axis);
-        Box segment;
-        for (std::size_t i = 0; i < 3; ++i) {
-            segment.lo[i] = lattice_below(std::min(p.c[i], from.at.c[i])) - 1;
-            segment.hi[i] = lattice_below(std::max(p.c[i], from.at.c[i])) + 2;
-        }
-        const PackedReach reach(PackedBox::of(frame_, segment));
-        for (const auto& part : {list.contained, list.crossing})
-            for (const PackedBox& e : part)
-                if (reach.meets(e) && source_.facet_box(e.id).overlaps(segment))
-                    trace.add({&source_, nullptr, e.id, leaf_.polygons().flipped(), false});
-        if (const auto change = trace.change(false)) return KnownPoint{p, from.winding + *change};
+        if (auto beyond = moved(list, from, k, p.c[k])) return beyond;
+    }
+    return std::nullopt;
+}
+
+// The list's reference beyond the splitting plane. Where all ways straight through it pass an edge,
+// as they do if the reference is above one, it is moved aside first.
+std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, const Cell& cell,
+                                                    const SplittingPlane& splitter,
+                                                    bool above) const {
+    if (auto beyond = moved_beyond(list, list.reference, cell, splitter, above)) return beyond;
+    const std::size_t aside = splitter.axis == 0 ? 1 : 0;
+    for (const std::int64_t step : {59, -59, 1001, -1001, 100'003, -100'003}) {
+        FinePoint p = list.reference.at;
+        p.c[aside] = reference_position(p.c[aside] + step, step);
+        if (!list.cell.contains(p)) continue;
+        const auto beside = moved(list, list.reference, aside, p.c[aside]);
+        if (!beside) continue;
+        if (auto beyond = moved_beyond(list, *beside, cell, splitter, above)) return beyond;
     }
     return std::nullopt;
 }
@@ -222,9 +259,9 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
     for (std::size_t i = 0; i < 2; ++i) {
         out[i].reference = list.reference;
         if (out[i].cell.contains(list.reference.at)) continue;
-        const auto moved = reference_beyond(list, out[i].cell, axis, splitter, i == 0 ? -1 : 1);
-        if (!moved) return std::nullopt;
-        out[i].reference = *moved;
+        const auto beyond = reference_beyond(list, out[i].cell, {axis, splitter}, i == 1);
+        if (!beyond) return std::nullopt;
+        out[i].reference = *beyond;
     }
     cut_entries.clear();
     auto* room = arena.take<PackedBox>(list.contained.size());

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/primitives/box.h>
@@ -46,6 +48,36 @@ PolygonMesh balls() {
         all.add_triangle(first + face[0], first + face[1], first + face[2]);
     }
     return all;
+}
+
+// A plate of n by n rectangles, cut along their diagonals, about the origin: the edges of one side
+// are seen along z in the same lines as those of the other.
+PolygonMesh plate(std::uint32_t n, double width, double depth) {
+    PolygonMesh m;
+    for (const double z : {0.0, -100.0})
+        for (std::uint32_t i = 0; i <= n; ++i)
+            for (std::uint32_t j = 0; j <= n; ++j)
+                m.points.push_back({width * (i - 0.5 * n), depth * (j - 0.5 * n),
+                                    z + static_cast<double>((7 * i + 5 * j) % 3)});
+    const std::uint32_t below = (n + 1) * (n + 1);
+    const auto at = [n](std::uint32_t i, std::uint32_t j) { return i * (n + 1) + j; };
+    const auto square = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        m.add_triangle(a, b, c);
+        m.add_triangle(a, c, d);
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            square(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+            square(below + at(i, j), below + at(i, j + 1), below + at(i + 1, j + 1),
+                   below + at(i + 1, j));
+        }
+        for (const auto& [a, b] : {std::pair{at(i, 0), at(i + 1, 0)},
+                                   {at(i + 1, n), at(i, n)},
+                                   {at(0, i + 1), at(0, i)},
+                                   {at(n, i), at(n, i + 1)}})
+            square(below + a, below + b, b, a);
+    }
+    return m;
 }
 
 class Refinement : public testing::Test {
@@ -89,6 +121,24 @@ TEST_F(Refinement, LeavesListWhatMeetsTheirCells) {
     check(*root_, Cell{});
     EXPECT_GT(leaves_, 16U);
     EXPECT_LT(largest_, trisect::detail::refinable_leaf);
+}
+
+// A reference point above a diagonal cannot be moved along z past it: the cell of a quarter of the
+// plate stayed whole, and a small cut in it took as long as all of it.
+TEST_F(Refinement, PlatesOfSquaresAreDividedEverywhere) {
+    for (const auto& [width, depth] :
+         {std::pair{8.0, 8.0}, {8.0, -8.0}, {16.0, 8.0}, {8.0, 24.0}, {40.0, 8.0}}) {
+        PolygonMesh mesh = plate(64, width, std::abs(depth));
+        if (depth < 0)
+            for (auto& p : mesh.points) p = {-p[1], p[0], p[2]};
+        const Solid part = Solid::from_mesh(mesh);
+        part.refine(1);
+        root_ = trisect::detail::state_of(part)->root().node.get();
+        all_.assign(root_->polygons().begin(), root_->polygons().end());
+        largest_ = 0;
+        check(*root_, Cell{});
+        EXPECT_LT(largest_, trisect::detail::refinable_leaf) << width << " by " << depth;
+    }
 }
 
 Solid less_boxes(const Solid& part, std::uint32_t threads, EvaluateStats& stats) {
