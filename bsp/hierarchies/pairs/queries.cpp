@@ -126,8 +126,8 @@ struct NearestPairs {
 };
 
 NearestPairs nearest(PairStructure& s, CostCounters& counters) {
-    const detail::PairDistance pairs(detail::data_of(s.model_a()), s.pose_a(),
-                                     detail::data_of(s.model_b()), s.pose_b());
+    detail::PairDistance pairs(detail::data_of(s.model_a()), s.pose_a(),
+                               detail::data_of(s.model_b()), s.pose_b());
     constexpr double infinite = std::numeric_limits<double>::infinity();
     NearestPairs r;
     double upper = infinite;

@@ -43,7 +43,8 @@
 // Gaps. Along a vector L, whatever its length up to 1 + 2^-20, the left side minus the right side
 // bounds the distance from below times that length. L = t as computed: t·t differs from |t|² by
 // √3·16 u |t| Λ, products r'_k·t by 10 √3 u |t|; divided by |t| both are paid for by the same
-// margin. The factor 1 - 2^-18 takes the lengths and the last roundings. So along a vector shorter
+// margin. Of any other vector L the left side has 19 √3 u |L| Λ and the right one 21 u |L| Σ b'.
+// The factor 1 - 2^-18 takes the lengths and the last roundings. So along a vector shorter
 // than 1, as products are, it says less than the distance, which is right, too.
 //
 // Planes that were found under another pose (separating_planes.h). The distance of the two sets

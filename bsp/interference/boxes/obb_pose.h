@@ -47,7 +47,8 @@ public:
     [[nodiscard]] Float4 gaps(const ObbNode& a, const OrientedBox& b) const {
         return gap(lanes_of(a, b), false);
     }
-    /// The best of such bounds that fifteen axes and the line of centres give. A third dearer.
+    /// The best of such bounds that the normals of both boxes and the way between their closest
+    /// points, or points near these, give. Tighter where edges or corners are nearest.
     [[nodiscard]] Float4 best_gaps(const OrientedBox& a, const ObbNode& b) const {
         return gap(lanes_of(a, b), true);
     }
@@ -111,13 +112,15 @@ private:
     template <class Gap>
     void offer_products(const Lanes& l, Float4 margin, Gap& best) const;
     template <class Gap>
-    void offer_axes(const Lanes& l, Float4 margin, bool all, Gap& best) const;
-    void offer_centers(const Lanes& l, Float4 margin, Most& best) const;
+    void offer_axes(const Lanes& l, Float4 margin, Gap& best) const;
+    void offer_direction(const Lanes& l, const std::array<Float4, 3>& n, Float4 margin,
+                         Most& best) const;
+    void offer_closest(const Lanes& l, Float4 margin, Most& best) const;
     [[nodiscard]] static Directions directions(const Lanes& l, Mask4 axis);
     template <bool Rigid>
     [[nodiscard]] unsigned may_meet(const Lanes& l) const;
     [[nodiscard]] double stretch_from(const ObbPose& other) const;
-    [[nodiscard]] Float4 gap(const Lanes& l, bool all) const;
+    [[nodiscard]] Float4 gap(const Lanes& l, bool by_closest) const;
 
     std::array<std::array<float, 3>, 3> m_{};  // divided by scale
     std::array<float, 3> t_{};
@@ -187,15 +190,35 @@ void ObbPose::offer_products(const Lanes& l, Float4 margin, Gap& best) const {
 }
 
 // The same along the line of centres, the best direction for boxes far apart.
-inline void ObbPose::offer_centers(const Lanes& l, Float4 margin, Most& best) const {
+// Along a vector of any length that is not 0.
+inline void ObbPose::offer_direction(const Lanes& l, const std::array<Float4, 3>& n, Float4 margin,
+                                     Most& best) const {
     const auto& r = l.r;
     const auto& t = l.t;
-    const Float4 square = (t[0] * t[0] + t[1] * t[1]) + t[2] * t[2];
+    const Float4 square = (n[0] * n[0] + n[1] * n[1]) + n[2] * n[2];
     Float4 across =
-        (l.a[0] * magnitude(t[0]) + l.a[1] * magnitude(t[1])) + l.a[2] * magnitude(t[2]);
+        (l.a[0] * magnitude(n[0]) + l.a[1] * magnitude(n[1])) + l.a[2] * magnitude(n[2]);
     for (std::size_t j = 0; j < 3; ++j)
-        across += l.b[j] * magnitude((t[0] * r[0][j] + t[1] * r[1][j]) + t[2] * r[2][j]);
-    best.offer((square - across) / larger(square_root(square), all_lanes(1e-30F)) - margin, 15);
+        across += l.b[j] * magnitude((n[0] * r[0][j] + n[1] * r[1][j]) + n[2] * r[2][j]);
+    const Float4 along = (n[0] * t[0] + n[1] * t[1]) + n[2] * t[2];
+    best.offer((along - across) / larger(square_root(square), all_lanes(1e-30F)) - margin, 15);
+}
+
+// From the centre of B to the nearest point of A, from there to that of B, and back: two boxes that
+// are small beside their distance are then nearly at their closest points. More rounds find more
+// for one pair in a hundred.
+inline void ObbPose::offer_closest(const Lanes& l, Float4 margin, Most& best) const {
+    const auto clamped = [](Float4 v, Float4 h) { return larger(-larger(-v, -h), -h); };
+    std::array<Float4, 3> way{};
+    for (std::size_t k = 0; k < 3; ++k) way[k] = clamped(l.t[k], l.a[k]) - l.t[k];
+    std::array<Float4, 3> p = l.t;
+    for (std::size_t j = 0; j < 3; ++j) {
+        const Float4 s =
+            clamped((way[0] * l.r[0][j] + way[1] * l.r[1][j]) + way[2] * l.r[2][j], l.b[j]);
+        for (std::size_t k = 0; k < 3; ++k) p[k] += s * l.r[k][j];
+    }
+    for (std::size_t k = 0; k < 3; ++k) p[k] -= clamped(p[k], l.a[k]);
+    offer_direction(l, p, margin, best);
 }
 
 // A difference of two floats is positive exactly when one is the larger one.
@@ -213,20 +236,22 @@ unsigned ObbPose::may_meet(const Lanes& l) const {
 
 // Products where the normals do not part all lanes, or always.
 template <class Gap>
-void ObbPose::offer_axes(const Lanes& l, Float4 margin, bool all, Gap& best) const {
+void ObbPose::offer_axes(const Lanes& l, Float4 margin, Gap& best) const {
     if (rigid_)
         offer_normals<true>(l, margin, best);
     else
         offer_normals<false>(l, margin, best);
-    if (rigid_ && (all || bits_of(best.gap() > all_lanes(0)) != 15))
-        offer_products(l, margin, best);
+    if (rigid_ && bits_of(best.gap() > all_lanes(0)) != 15) offer_products(l, margin, best);
 }
 
-inline Float4 ObbPose::gap(const Lanes& l, bool all) const {
+inline Float4 ObbPose::gap(const Lanes& l, bool by_closest) const {
     const Float4 margin = margin_of(l);
     Most best;
-    offer_axes(l, margin, all, best);
-    offer_centers(l, margin, best);
+    offer_axes(l, margin, best);
+    if (by_closest)
+        offer_closest(l, margin, best);
+    else
+        offer_direction(l, l.t, margin, best);
     return larger(best.gap(), all_lanes(0)) * all_lanes(1 - 0x1p-18F);
 }
 
@@ -287,7 +312,7 @@ template <class BoxesA, class BoxesB>
 Float4 ObbPose::gaps(const BoxesA& a, const BoxesB& b, Directions& along) const {
     const Lanes l = lanes_of(a, b);
     MostAndAxis best;
-    offer_axes(l, margin_of(l), false, best);
+    offer_axes(l, margin_of(l), best);
     const Directions d = directions(l, best.axis());
     // Towards B. Products are shorter than 1, and so are gaps along them.
     const Mask4 back = obb_lanes::product(d, l.t) < all_lanes(0);

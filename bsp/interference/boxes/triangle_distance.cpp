@@ -108,7 +108,7 @@ private:
 }  // namespace
 
 bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, double limit,
-                           double error) {
+                           double error, const Vector3& first) {
     double g = 0;
     for (const auto* t : {&p, &q})
         for (const Vector3& c : *t)
@@ -123,11 +123,17 @@ bool are_certainly_farther(const TriangleCorners& p, const TriangleCorners& q, d
                                     std::min({a[0], a[1], a[2]}) - std::max({b[0], b[1], b[2]}));
         return gap > 0 && gap * gap > square * dot(n, n);
     };
+    if (apart_along(first)) return true;
     Vector3 centres{};
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) centres[k] += q[i][k] - p[i][k];
     return apart_along(centres) || apart_along(cross(minus(p[1], p[0]), minus(p[2], p[0]))) ||
            apart_along(cross(minus(q[1], q[0]), minus(q[2], q[0])));
+}
+
+Vector3 way_between(const TriangleCorners& p, const TriangleCorners& q,
+                    const ClosestPoints& closest) {
+    return minus(combined(q, closest.on_q), combined(p, closest.on_p));
 }
 
 ClosestPoints closest_points(const TriangleCorners& p, const TriangleCorners& q) {
@@ -141,7 +147,7 @@ DistanceBounds certify(const TriangleCorners& p, const TriangleCorners& q,
         for (const Vector3& c : *t)
             for (const double v : c) g = std::max(g, std::abs(v));
     const double slack = 4 * error + 0x1p-48 * g;
-    const Vector3 way = minus(combined(q, closest.on_q), combined(p, closest.on_p));
+    const Vector3 way = way_between(p, q, closest);
     const double length = std::sqrt(dot(way, way));
     DistanceBounds r;
     r.upper = length * slightly_more + slack;

@@ -85,7 +85,7 @@ PairDistance::PairDistance(const Boundary& a, const Pose& pose_a, const Boundary
     if (pose_a.is_translation()) least_ = most_ = std::ldexp(1.0, a.lattice.exponent);
 }
 
-DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double nearest) const {
+DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double nearest) {
     const TriangleCorners p = a_->corners_of(i);
     TriangleCorners q = b_->corners_of(j);
     for (auto& corner : q) corner = map_(corner);
@@ -102,7 +102,7 @@ DistanceCandidate PairDistance::compare(std::uint32_t i, std::uint32_t j, double
 }
 
 DistanceCandidate PairDistance::compare_in_lattice(const TriangleCorners& p,
-                                                   const TriangleCorners& q, double nearest) const {
+                                                   const TriangleCorners& q, double nearest) {
     // The origin is A's first corner, as below.
     TriangleCorners from_p;
     TriangleCorners from_q;
@@ -115,11 +115,12 @@ DistanceCandidate PairDistance::compare_in_lattice(const TriangleCorners& p,
     }
     const double error = error_ + 0x1p-52 * g;
     DistanceCandidate c;
-    if (are_certainly_farther(from_p, from_q, nearest / least_ * slightly_more, error)) {
+    if (are_certainly_farther(from_p, from_q, nearest / least_ * slightly_more, error, way_)) {
         c.bounds = {nearest * slightly_more, std::numeric_limits<double>::infinity()};
         return c;
     }
     c.closest = closest_points(from_p, from_q);
+    way_ = way_between(from_p, from_q, c.closest);
     const DistanceBounds b = certify(from_p, from_q, c.closest, error);
     c.closest.squared *= least_ * least_;
     c.bounds = {b.lower * least_ * slightly_less, b.upper * most_ * slightly_more};
@@ -127,7 +128,7 @@ DistanceCandidate PairDistance::compare_in_lattice(const TriangleCorners& p,
 }
 
 DistanceCandidate PairDistance::compare_in_world(const TriangleCorners& p, const TriangleCorners& q,
-                                                 double nearest) const {
+                                                 double nearest) {
     const Vector3 r = p[0];
     double g = 0;
     const auto placed = [&](const Vector3& x) {
@@ -143,11 +144,12 @@ DistanceCandidate PairDistance::compare_in_world(const TriangleCorners& p, const
     }
     const double error = row_ * (1.01 * error_ + 0x1p-49 * g);
     DistanceCandidate c;
-    if (are_certainly_farther(in_world_p, in_world_q, nearest, error)) {
+    if (are_certainly_farther(in_world_p, in_world_q, nearest, error, way_)) {
         c.bounds = {nearest * slightly_more, std::numeric_limits<double>::infinity()};
         return c;
     }
     c.closest = closest_points(in_world_p, in_world_q);
+    way_ = way_between(in_world_p, in_world_q, c.closest);
     c.bounds = certify(in_world_p, in_world_q, c.closest, error);
     return c;
 }

@@ -26,14 +26,15 @@ struct DistanceCandidate {
     bool crossing = false;  ///< certainly: the distance is 0
 };
 
-/// Compares triangles of posed boundaries in doubles. Boundaries must outlive it.
+/// Compares triangles of posed boundaries in doubles. Boundaries must outlive it. Pairs beside each
+/// other are mostly apart along the same direction, so the last one is tried first.
 class PairDistance {
 public:
     /// \throw LimitError when the poses are beyond the range of doubles.
     PairDistance(const Boundary& a, const Pose& pose_a, const Boundary& b, const Pose& pose_b);
 
     /// What is certainly farther than `nearest` gets an infinite upper bound and no closest points.
-    [[nodiscard]] DistanceCandidate compare(std::uint32_t a, std::uint32_t b, double nearest) const;
+    [[nodiscard]] DistanceCandidate compare(std::uint32_t a, std::uint32_t b, double nearest);
     /// From B's lattice into A's.
     [[nodiscard]] const ApproximateMap& map() const { return map_; }
     /// A distance in A's lattice is in the world at least this many times as long.
@@ -41,18 +42,17 @@ public:
 
 private:
     [[nodiscard]] DistanceCandidate compare_in_lattice(const TriangleCorners& p,
-                                                       const TriangleCorners& q,
-                                                       double nearest) const;
+                                                       const TriangleCorners& q, double nearest);
     [[nodiscard]] DistanceCandidate compare_in_world(const TriangleCorners& p,
-                                                     const TriangleCorners& q,
-                                                     double nearest) const;
+                                                     const TriangleCorners& q, double nearest);
 
     const Boundary* a_;
     const Boundary* b_;
     ApproximateMap map_;
     std::array<std::array<double, 3>, 3> stretch_{};  // differences in A's lattice to the world
-    double row_ = 0;                                  // largest sum of a row's magnitudes
-    double error_ = 0;                                // of a position of A and one of moved B
+    std::array<double, 3> way_{};  // the last one: in A's lattice, or in the world
+    double row_ = 0;               // largest sum of a row's magnitudes
+    double error_ = 0;             // of a position of A and one of moved B
     double least_ = 0;  // a distance in A's lattice is in the world at least so many times as long,
     double most_ = 0;   // and at most, where this is not infinite: of a similarity
 };

@@ -97,9 +97,14 @@ TEST(TriangleDistance, CertainlyFartherIsNeverWrong) {
                     v = static_cast<double>(random.between(0, 12)) + (t == &q ? 6 : 0);
         const auto closest = trisect::detail::closest_points(p, q);
         const auto bounds = trisect::detail::certify(p, q, closest, 0);
+        // The way of the closest points, any other one, or none.
+        std::array<double, 3> first{};
+        if (i % 3 == 0) first = trisect::detail::way_between(p, q, closest);
+        if (i % 3 == 1)
+            for (double& v : first) v = static_cast<double>(random.between(-5, 5));
         for (const double limit : {0.25 * bounds.upper, 0.9 * bounds.upper, bounds.lower,
                                    std::nextafter(bounds.upper, 1e9), 2 * bounds.upper}) {
-            if (!are_certainly_farther(p, q, limit, 0)) continue;
+            if (!are_certainly_farther(p, q, limit, 0, first)) continue;
             ++certain;
             EXPECT_LT(limit, bounds.upper);
         }
