@@ -81,7 +81,7 @@ manifold::Polygons polygons_of(const std::vector<Outline>& outlines) {
 }
 
 CrossSection even_odd(const std::vector<Outline>& outlines) {
-    return {polygons_of(outlines), CrossSection::FillRule::EvenOdd};
+    return CrossSection::EvenOdd(polygons_of(outlines));
 }
 
 /// Corners alone, for the numbers of slices and steps that extrusions of it have.
@@ -399,7 +399,7 @@ private:
     CrossSection projection(Index n) {
         const Manifold all = any_solid(children(n));
         const bool cut = program_.arguments(n).truth("cut", false);
-        return {cut ? all.Slice(0) : all.Project(), CrossSection::FillRule::Positive};
+        return CrossSection(cut ? all.Slice(0) : all.Project());
     }
     CrossSection resized_region(Index n) {
         const CrossSection all = any_region(children(n));

@@ -23,6 +23,7 @@
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/facet_cutter.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/flat/flat_mesh.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/large_pages.h>
@@ -437,6 +438,9 @@ struct ListedFacets {
         return tree.root.node->size() + (tree.crossings ? tree.crossings->pairs.size() : 0);
     }
     std::size_t operator()(const PrismOutlines& prisms) const { return prisms.whole->size(); }
+    std::size_t operator()(const FlatPrism& prism) const {
+        return prism.operand->given().segments.size();
+    }
     std::size_t operator()(const UndividedMeshes& meshes) const {
         std::size_t facets = meshes.crossings->pairs.size();
         for (const UncrossedFacets& list : meshes.uncrossed) facets += list.facets.size();
@@ -457,6 +461,9 @@ PolygonMesh assemble_on_threads(const SolidState& solid, AssemblyStats* stats, b
 
 PolygonMesh assemble_mesh(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                           std::uint32_t threads, std::vector<FaceSource>* names) {
+    if (const auto* const flat = std::get_if<FlatPrism>(&solid.form);
+        flat != nullptr && names == nullptr && stats == nullptr)
+        return flat_mesh(*flat);
     return assemble_on_threads(solid, stats, by_planes, threads, {names, nullptr});
 }
 

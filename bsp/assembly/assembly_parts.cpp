@@ -87,6 +87,7 @@ private:
     void gather(const CellTree& tree);
     void gather(const UndividedMeshes& meshes);
     void gather(const PrismOutlines& prisms);
+    void gather(const FlatPrism&) { needs_tree_ = true; }
     void finish();
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
     [[nodiscard]] const DeferredLeaf* deferred(const AssembledLeaf& leaf) const;

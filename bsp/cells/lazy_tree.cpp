@@ -27,7 +27,7 @@ LazyTree::LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateSett
 
 const std::shared_ptr<const SolidState>& LazyTree::cut() const {
     const WorkLock lock(cutting_);
-    if (cut_ == nullptr) cut_ = evaluate_(formula_, solids_, settings_);
+    if (cut_ == nullptr) cut_ = make_ ? make_() : evaluate_(formula_, solids_, settings_);
     return cut_;
 }
 

@@ -3,8 +3,10 @@
 // LazyTree: the tree of a result, evaluated when it is first needed.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -24,6 +26,9 @@ public:
     /// `solids` are trees and lie on one lattice.
     LazyTree(Residual::Ref formula, SolidStates solids, const EvaluateSettings& settings,
              Evaluate evaluate);
+    /// Of what is made otherwise.
+    explicit LazyTree(std::function<std::shared_ptr<const SolidState>()> make)
+        : make_(std::move(make)) {}
 
     /// The set with a tree. Calls during its evaluation wait.
     /// \throw CancelledError, LimitError by the StopScope of the thread that evaluates; nothing is
@@ -35,7 +40,8 @@ private:
     Residual::Ref formula_;
     SolidStates solids_;
     EvaluateSettings settings_;
-    Evaluate evaluate_;
+    Evaluate evaluate_ = nullptr;
+    std::function<std::shared_ptr<const SolidState>()> make_;
     mutable std::mutex cutting_;
     mutable std::shared_ptr<const SolidState> cut_;
 };

@@ -13,6 +13,7 @@
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/cells/flat/flat_region.h>
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/cells/residual.h>
@@ -72,7 +73,17 @@ struct PrismOutlines {
     std::shared_ptr<const LazyTree> tree;  ///< not null
 };
 
-using SolidForm = std::variant<CellTree, UndividedMeshes, PrismOutlines>;
+/// A prism over a region of the plane, along an axis; the directions of the region are the next
+/// axes.
+struct FlatPrism {
+    std::shared_ptr<const FlatOperand> operand;  ///< not null; its region lies on the lattice
+    int axis = 2;
+    Coordinate low;  ///< along the axis
+    Coordinate high;
+    std::shared_ptr<const LazyTree> tree;  ///< not null
+};
+
+using SolidForm = std::variant<CellTree, UndividedMeshes, PrismOutlines, FlatPrism>;
 
 struct SolidState {
     Lattice lattice;

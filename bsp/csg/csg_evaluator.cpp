@@ -7,10 +7,14 @@
 #include <trisect/bsp/csg/csg_evaluator.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include <trisect/brep/primitives/hull.h>
+#include <trisect/bsp/flat_prism.h>
+#include <trisect/bsp/modelling/plane_hull.h>
 #include <trisect/bsp/solid_transform.h>
 
 #include <trisect/bsp/csg/csg_drawing.h>
@@ -24,6 +28,13 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::size_t most_remarks = 100;
+
+/// A region under a map, its corners rounded; nothing where the map tilts it, and for other solids.
+std::optional<Solid> mapped_region(const Solid& solid, const AffineMap& map) {
+    const auto flat = flat_outlines(solid);
+    if (!flat) return std::nullopt;
+    return flat_prism(flat->outlines(), OutlineRule::Positive, flat->low, flat->high, map);
+}
 
 Expression joined(const std::vector<Expression>& terms) {
     if (terms.empty()) return Solid();
@@ -155,7 +166,9 @@ Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const Csg
         const Solid* known = kept_.solid(key);
         const Solid group =
             known != nullptr ? *known : kept_.keep(key, solid_of(children_of(n, straight)));
-        return group.is_empty() ? group : transformed(group, map);
+        if (group.is_empty()) return group;
+        if (auto flat = mapped_region(group, map)) return *std::move(flat);
+        return transformed(group, map);
     });
 }
 
@@ -270,7 +283,7 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
         return Solid();
     }
     const double low = in.truth("center", false) ? -height / 2 : 0;
-    if (is_straight(in)) return flat_content(n, {frame.map, low, low + height});
+    if (is_straight(in)) return resolved(flat_content(n, {frame.map, low, low + height}));
     return kept_formula(n, frame, [&]() -> Expression {
         return placed(n, csg_twisted(base_of(n), in, low, low + height), frame.map);
     });
@@ -280,18 +293,39 @@ Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
     return placed(n, csg_revolved(base_of(n), program_.arguments(n)), frame.map);
 }
 
+/// Of regions that lie in one plane one solid is left, so that what is flat in a program of solids
+/// costs what it would cost by itself.
+Expression CsgEvaluator::resolved(const Expression& formula) {
+    const auto flat = evaluate_flat_prisms(formula, options_.evaluate);
+    return flat ? Expression(*flat) : formula;
+}
+
 PlaneRegion CsgEvaluator::base_of(std::uint32_t n) {
     return region_of_faces(solid_of(flat_content(n, CsgFrame())), 1);
 }
 
 Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {
     std::vector<Point3d> points;
+    std::vector<Point2d> flats;
+    double low = 0;
+    double high = 1;
     for (const std::uint32_t c : program_.used_children(n)) {
         if (program_.dimension(c) != 0 && program_.dimension(c) != program_.dimension(n)) continue;
-        const PolygonMesh mesh = solid_of(expression_of(c, frame)).to_mesh();
+        const Solid solid = solid_of(expression_of(c, frame));
+        if (const auto flat = flat_outlines(solid)) {
+            flats.insert(flats.end(), flat->points.begin(), flat->points.end());
+            low = flat->low;
+            high = flat->high;
+            continue;
+        }
+        const PolygonMesh mesh = solid.to_mesh();
         points.insert(points.end(), mesh.points.begin(), mesh.points.end());
     }
-    if (points.empty()) return Solid();
+    if (points.empty() && flats.empty()) return Solid();
+    if (points.empty())
+        return flat_prism(std::array{hull_of_points(flats)}, OutlineRule::Positive, low, high);
+    for (const auto& [x, y] : flats)
+        for (const double z : {low, high}) points.push_back({x, y, z});
     return at_node(n, [&] { return placed(n, make_hull(points), AffineMap()); });
 }
 

@@ -78,6 +78,7 @@ private:
     [[nodiscard]] Expression revolved(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] bool names_drawing(std::uint32_t n) const;
     [[nodiscard]] Expression flat_content(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression resolved(const Expression& formula);
     [[nodiscard]] PlaneRegion base_of(std::uint32_t n);
     [[nodiscard]] Expression hull(std::uint32_t n, const CsgFrame& frame);
 

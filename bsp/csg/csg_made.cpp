@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/minkowski.h>
 #include <trisect/bsp/modelling/offset.h>
 #include <trisect/bsp/modelling/plane_region.h>
@@ -51,6 +52,14 @@ Expression CsgEvaluator::made(std::uint32_t n, const CsgFrame& frame) {
         known != nullptr ? *known : kept_.keep(key, at_node(n, [&] { return made_at_origin(n); }));
     if (solid.is_empty() || is_at_origin(frame)) return solid;
     if (program_.dimension(n) == 3) return transformed(solid, frame.map);
+    if (const auto flat = flat_outlines(solid)) {
+        if (frame.map == AffineMap())
+            if (auto moved = flat_prism_between(solid, frame.low, frame.high))
+                return *std::move(moved);
+        if (auto moved = flat_prism(flat->outlines(), OutlineRule::Positive, frame.low, frame.high,
+                                    frame.map))
+            return *std::move(moved);
+    }
     const PlaneRegion region = region_of_faces(solid, 1);
     return placed(n, prism_of_region(region, frame.low, frame.high), frame.map);
 }

@@ -8,6 +8,7 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/extrusion.h>
 #include <trisect/brep/validate/embedding.h>
+#include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/solid.h>
 
 namespace trisect::detail {
@@ -52,10 +53,6 @@ Expression even_odd(const Outline& outline, const CsgFrame& frame) {
     return odd_of(triangles);
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<Expression> prisms_of(std::vector<Outline> paths, const CsgFrame& frame) {
     std::vector<Expression> terms;
     for (Outline& outline : paths) {
@@ -66,15 +63,44 @@ std::vector<Expression> prisms_of(std::vector<Outline> paths, const CsgFrame& fr
     return terms;
 }
 
-}  // namespace
-
-Expression even_odd_prism(std::vector<Outline> paths, const CsgFrame& frame) {
-    return odd_of(prisms_of(std::move(paths), frame));
+/// Nothing where the frame tilts the shape.
+std::optional<Expression> flat_shape(const DrawingShape& shape, const CsgFrame& frame) {
+    const auto region = [&](const std::vector<Outline>& outlines, OutlineRule rule) {
+        return flat_prism(outlines, rule, frame.low, frame.high, frame.map);
+    };
+    const auto outlined = region(shape.outlines, OutlineRule::Odd);
+    if (!outlined) return std::nullopt;
+    std::vector<Expression> terms{*outlined};
+    for (const std::vector<Outline>& stroke : shape.strokes) {
+        std::vector<Expression> pieces;
+        for (const Outline& piece : stroke) pieces.emplace_back(*region({piece}, OutlineRule::Odd));
+        if (!pieces.empty()) terms.push_back(any_of_terms(pieces));
+    }
+    return odd_of(std::move(terms));
 }
+
+/// Where the frame tilts it: the region is resolved before that, if that takes no rounding.
+std::optional<Expression> tilted_shape(const DrawingShape& shape, const CsgFrame& frame) {
+    const auto flat = flat_shape(shape, {AffineMap(), frame.low, frame.high});
+    const Solid resolved = evaluate(*flat);
+    const auto region = flat_outlines(resolved);
+    if (!region) return Solid();
+    if (!region->is_exact) return std::nullopt;
+    return Solid::from_mesh(transformed(resolved.to_mesh(), frame.map),
+                            {.embedding = Embedding::Check});
+}
+
+}  // namespace
 
 Expression drawing_prism(Drawing drawing, const CsgFrame& frame) {
     std::vector<Expression> shapes;
     for (DrawingShape& shape : drawing.shapes) {
+        auto known = flat_shape(shape, frame);
+        if (!known) known = tilted_shape(shape, frame);
+        if (known) {
+            shapes.push_back(*std::move(known));
+            continue;
+        }
         std::vector<Expression> terms = prisms_of(std::move(shape.outlines), frame);
         for (std::vector<Outline>& stroke : shape.strokes)
             terms.push_back(any_of_terms(prisms_of(std::move(stroke), frame)));

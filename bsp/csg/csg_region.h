@@ -13,11 +13,8 @@
 
 namespace trisect::detail {
 
-/// Where an odd number of paths go around, between the heights of the frame; exact over the corners
-/// that the frame's map makes. The empty set where nothing has an area.
-[[nodiscard]] Expression even_odd_prism(std::vector<Outline> paths, const CsgFrame& frame);
-
-/// A drawing between the heights of the frame. Corners of strokes are rounded once.
+/// A drawing between the heights of the frame; exact over the corners that the frame's map makes,
+/// of which each is rounded once. The empty set where nothing has an area.
 [[nodiscard]] Expression drawing_prism(Drawing drawing, const CsgFrame& frame);
 
 }  // namespace trisect::detail

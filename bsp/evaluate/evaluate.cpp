@@ -10,6 +10,7 @@
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/evaluate/flat_formula.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
@@ -79,6 +80,11 @@ EvaluateCounters& EvaluateCounters::operator-=(const EvaluateCounters& o) {
 Solid evaluate(const Expression& expression, const EvaluateOptions& options,
                EvaluateReport* report) {
     const detail::Translation t = detail::translate(expression);
+    if (auto flat = detail::evaluate_flat(t, options)) {
+        if (report != nullptr) *report = {};
+        if (report != nullptr) report->lattice.lattice = flat->lattice;
+        return detail::solid_of(std::move(flat));
+    }
     detail::SolidStates states;
     for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
     const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);

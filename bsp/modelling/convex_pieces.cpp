@@ -13,7 +13,6 @@
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/hull.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/modelling/plane_region.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/error.h>
 
@@ -131,30 +130,6 @@ ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options
     const PolygonMesh mesh = solid.to_mesh();
     if (auto corners = convex_corners(solid, mesh, options)) return whole(std::move(*corners));
     return triangles_of(mesh);
-}
-
-ConvexPieces pieces_of_region(const Solid& prism, bool edges, const MinkowskiOptions& options) {
-    if (auto corners = convex_corners(prism, prism.to_mesh(), options)) {
-        // Corners at the bottom first: a region is moved within its plane.
-        const auto top = std::stable_partition(corners->begin(), corners->end(),
-                                               [](const Point3d& p) { return p[2] == 0; });
-        if (edges) corners->erase(top, corners->end());
-        return whole(std::move(*corners));
-    }
-    ConvexPieces out;
-    const PlaneRegion region = region_of_faces(prism, 1);
-    for (const auto& loop : region.loops) {
-        const auto [x, y] = region.points[loop[0]];
-        out.representatives.push_back({x, y, 0});
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            auto& piece = out.pieces.emplace_back();
-            for (const std::uint32_t v : {loop[i], loop[(i + 1) % loop.size()]})
-                for (const double z : {0.0, 1.0})
-                    if (z == 0 || !edges)
-                        piece.push_back({region.points[v][0], region.points[v][1], z});
-        }
-    }
-    return out;
 }
 
 }  // namespace trisect::detail

@@ -23,8 +23,4 @@ struct ConvexPieces {
 [[nodiscard]] ConvexPieces pieces_of_boundary(const Solid& solid);
 [[nodiscard]] ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options);
 
-/// Of a prism between z = 0 and z = 1: its walls, or, with `edges`, their lower edges.
-[[nodiscard]] ConvexPieces pieces_of_region(const Solid& prism, bool edges,
-                                            const MinkowskiOptions& options);
-
 }  // namespace trisect::detail

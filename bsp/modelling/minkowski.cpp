@@ -8,11 +8,16 @@
 // round. Where B is convex, sums of a triangle and B take the place of the first two.
 #include <trisect/bsp/modelling/minkowski.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <trisect/brep/transform.h>
+#include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/convex_pieces.h>
+#include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/bsp/modelling/plane_sums.h>
 #include <trisect/bsp/modelling/sum_hull.h>
 #include <trisect/bsp/solid_transform.h>
 #include <trisect/kernel/error.h>
@@ -22,6 +27,15 @@ namespace trisect {
 namespace {
 
 using detail::ConvexPieces;
+
+double twice_area(const Outline& outline) {
+    double out = 0;
+    const Point2d& o = outline[0];
+    for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+        out += (outline[i][0] - o[0]) * (outline[i + 1][1] - o[1]) -
+               (outline[i][1] - o[1]) * (outline[i + 1][0] - o[0]);
+    return out;
+}
 
 Solid moved(const Solid& solid, const Point3d& by) {
     return transformed(solid, AffineMap::translation(by));
@@ -60,6 +74,20 @@ Solid sum_of(const Solid& a, const ConvexPieces& in_a, const Solid& b, const Con
     return evaluate(Expression::any_of(terms), options.evaluate);
 }
 
+/// Outlines of the parts of a region, or the triangles of one with holes.
+std::vector<Outline> parts_without_holes(const Solid& prism) {
+    std::vector<Outline> out = outlines_of_prism(prism);
+    std::erase_if(out, [](const Outline& o) { return o.size() < 3; });
+    if (std::ranges::all_of(out, [](const Outline& o) { return twice_area(o) > 0; })) return out;
+    out.clear();
+    const PlaneRegion region = region_of_faces(prism, 1);
+    for (const auto& [p, q, r] : region.triangles) {
+        Outline triangle{region.points[p], region.points[q], region.points[r]};
+        if (twice_area(triangle) > 0) out.push_back(std::move(triangle));
+    }
+    return out;
+}
+
 }  // namespace
 
 Solid minkowski_sum(const Solid& a, const Solid& b, const MinkowskiOptions& options) {
@@ -70,8 +98,15 @@ Solid minkowski_sum(const Solid& a, const Solid& b, const MinkowskiOptions& opti
 
 Solid minkowski_sum_of_regions(const Solid& a, const Solid& b, const MinkowskiOptions& options) {
     if (a.is_empty() || b.is_empty()) return {};
-    return sum_of(a, detail::pieces_of_region(a, true, options), b,
-                  detail::pieces_of_region(b, false, options), options);
+    const std::vector<Outline> in_a = parts_without_holes(a);
+    const std::vector<Outline> in_b = parts_without_holes(b);
+    if (!in_b.empty() && in_a.size() > options.most_pieces / in_b.size())
+        throw LimitError("a Minkowski sum of more than " + std::to_string(options.most_pieces) +
+                         " pairs of parts");
+    detail::SumSides sides;
+    for (const Outline& p : in_a)
+        for (const Outline& q : in_b) detail::add_convolution(sides, p, q);
+    return evaluate(flat_prism(sides.corners, sides.sides, 0, 1), options.evaluate);
 }
 
 // `b` moved to x is within `a` where one point of each of its parts is, and its boundary meets that

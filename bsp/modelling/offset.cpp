@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/plane_region.h>
 #include <trisect/bsp/modelling/plane_triangles.h>
 #include <trisect/kernel/error.h>
@@ -108,21 +109,17 @@ Solid offset_of_region(const Solid& prism, double distance, const OffsetOptions&
     if (options.segments < 3) throw UsageError("an arc needs at least three segments to a circle");
     if (!(options.miter_limit >= 1)) throw UsageError("a limit of miters must be at least 1");
     if (distance == 0 || prism.is_empty()) return prism;
-    const PlaneRegion region = region_of_faces(prism, 1);
+    const std::vector<Outline> outlines = outlines_of_prism(prism);
     detail::PlaneTriangles pieces;
     Strips strips(distance, options, pieces);
-    for (const auto& loop : region.loops) {
-        std::vector<Point2d> points;
-        for (const std::uint32_t v : loop) points.push_back(region.points[v]);
-        points.erase(std::unique(points.begin(), points.end()), points.end());
-        while (points.size() > 1 && points.front() == points.back()) points.pop_back();
-        if (points.size() >= 3) strips.add_loop(points);
-    }
-    if (distance < 0) return evaluate(solid_of_region(region) - pieces.prisms(), options.evaluate);
+    for (const Outline& loop : outlines)
+        if (loop.size() >= 3) strips.add_loop(loop);
+    if (distance < 0)
+        return evaluate(flat_prism(outlines, OutlineRule::Positive, 0, 1) - pieces.prism(),
+                        options.evaluate);
     // With the region itself its edges are gone, on which strips stand.
-    for (const auto& [a, b, c] : region.triangles)
-        pieces.add(region.points[a], region.points[b], region.points[c]);
-    return evaluate(pieces.prisms(), options.evaluate);
+    for (const Outline& loop : outlines) pieces.add_loop(loop);
+    return evaluate(pieces.prism(), options.evaluate);
 }
 
 }  // namespace trisect

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/flat_prism.h>
 
 namespace trisect {
 namespace {
@@ -47,6 +49,10 @@ void add_face(PlaneRegion& out, const Brep& brep, FaceId f, bool turn_over) {
 
 PlaneRegion region_of_faces(const Solid& solid, double height, FacesLook look) {
     PlaneRegion out;
+    if (auto flat = flat_outlines(solid)) {
+        if (height != (look == FacesLook::Up ? flat->high : flat->low)) return out;
+        return {std::move(flat->points), std::move(flat->loops), flat_triangles(solid)};
+    }
     // A mesh that meets itself is resolved by that: its own faces have walls inside the set.
     const Brep brep = evaluate(solid).to_brep();
     const PolygonMesh mesh = to_polygon_mesh(brep);
@@ -77,8 +83,30 @@ PolygonMesh prism_of_region(const PlaneRegion& region, double low, double high) 
 }
 
 Solid solid_of_region(const PlaneRegion& region, double low, double high) {
-    if (region.triangles.empty()) return {};
-    return Solid::from_mesh(prism_of_region(region, low, high), {.embedding = Embedding::Check});
+    std::vector<Outline> outlines;
+    for (const auto& loop : region.loops) {
+        Outline& outline = outlines.emplace_back();
+        for (const std::uint32_t v : loop) outline.push_back(region.points[v]);
+    }
+    return flat_prism(outlines, OutlineRule::Positive, low, high);
+}
+
+std::vector<Outline> outlines_of_prism(const Solid& prism) {
+    std::vector<Outline> out;
+    if (const auto flat = flat_outlines(prism)) {
+        out = flat->outlines();
+    } else {
+        const PlaneRegion region = region_of_faces(prism, 1);
+        for (const auto& loop : region.loops) {
+            Outline& outline = out.emplace_back();
+            for (const std::uint32_t v : loop) outline.push_back(region.points[v]);
+        }
+    }
+    for (Outline& outline : out) {
+        outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
+        while (outline.size() > 1 && outline.front() == outline.back()) outline.pop_back();
+    }
+    return out;
 }
 
 }  // namespace trisect

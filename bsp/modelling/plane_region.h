@@ -28,6 +28,9 @@ enum class FacesLook : std::uint8_t { Up, Down };
 [[nodiscard]] PlaneRegion region_of_faces(const Solid& solid, double height,
                                           FacesLook look = FacesLook::Up);
 
+/// The outlines of a prism between z = 0 and z = 1, without corners that rounding made equal.
+[[nodiscard]] std::vector<Outline> outlines_of_prism(const Solid& prism);
+
 /// The prism over a region, between two heights: walls are quadrilaterals, ends triangles.
 [[nodiscard]] PolygonMesh prism_of_region(const PlaneRegion& region, double low, double high);
 

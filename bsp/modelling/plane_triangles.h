@@ -8,9 +8,7 @@
 #include <map>
 #include <vector>
 
-#include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/primitives/point_2d.h>
-#include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
 namespace trisect::detail {
@@ -23,10 +21,13 @@ public:
     /// From its first corner. The union is that of the triangles, whatever the outline.
     void add_fan(const Outline& outline);
 
-    /// The union as prisms between z = 0 and z = 1, exact: for triangles that hang together by
-    /// sides a mesh whose caps they are and whose walls are below their outline alone. It may
-    /// overlap itself: evaluate() resolves it. O(n log n).
-    [[nodiscard]] Expression prisms() const;
+    /// An outline of a region with the region on its left, or of its holes. The union is that of
+    /// the triangles and what all of these together go around.
+    void add_loop(const Outline& outline);
+
+    /// The union as a prism between z = 0 and z = 1, exact. Sides that two triangles pass in
+    /// opposite directions are gone. O(n log n).
+    [[nodiscard]] Solid prism() const;
 
 private:
     using Corners = std::array<std::uint32_t, 3>;
@@ -34,14 +35,12 @@ private:
     [[nodiscard]] std::uint32_t number(const Point2d& p);
     /// Those that are not flat, counter-clockwise.
     [[nodiscard]] std::vector<Corners> turned_alike() const;
-    [[nodiscard]] static std::vector<std::vector<Corners>> connected_parts(
-        const std::vector<Corners>& triangles);
-    [[nodiscard]] static std::vector<Side> outline(const std::vector<Corners>& triangles);
-    [[nodiscard]] Solid prism(const std::vector<Corners>& triangles) const;
+    [[nodiscard]] std::vector<Side> outline(const std::vector<Corners>& triangles) const;
 
     std::map<Point2d, std::uint32_t> numbers_;
-    std::vector<Point3d> points_;  ///< at z = 0
+    std::vector<Point2d> points_;
     std::vector<Corners> triangles_;
+    std::vector<Side> sides_;  ///< of loops
 };
 
 }  // namespace trisect::detail

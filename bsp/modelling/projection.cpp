@@ -72,7 +72,7 @@ Solid shadow(const Solid& solid, const EvaluateOptions& options) {
         const Point3d& c = mesh.points[t[2]];
         if (!looks_down(a, b, c)) seen.add({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
     }
-    return evaluate(seen.prisms(), options);
+    return evaluate(seen.prism(), options);
 }
 
 }  // namespace trisect

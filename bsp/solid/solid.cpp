@@ -78,6 +78,8 @@ bool has_boundary(const Solid& solid) {
     } else if (const auto* const meshes = std::get_if<detail::UndividedMeshes>(&s.form)) {
         if (std::ranges::any_of(meshes->uncrossed, [](const auto& u) { return !u.facets.empty(); }))
             return true;
+    } else if (const auto* const flat = std::get_if<detail::FlatPrism>(&s.form)) {
+        return !flat->operand->resolved().is_empty();
     } else if (std::get<detail::PrismOutlines>(s.form).whole->size() != 0) {
         return true;
     }

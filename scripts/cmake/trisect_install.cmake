@@ -127,6 +127,8 @@ set(private_headers
     bsp/csg/csg_region.h
     bsp/csg/csg_shapes.h
     bsp/modelling/convex_pieces.h
+    bsp/modelling/plane_sums.h
+    bsp/modelling/plane_turn.h
     bsp/modelling/sum_hull.h
     bsp/trisect.h
     kernel/plane_value.h

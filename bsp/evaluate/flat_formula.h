@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Booleans of prisms over regions of the plane.
+#pragma once
+
+#include <memory>
+
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/translate.h>
+#include <trisect/bsp/expression.h>
+
+namespace trisect::detail {
+
+/// The value of a formula as an arrangement of segments. Nothing where an operand is none of these
+/// prisms, they differ in axis or heights, the value is not bounded, or there is no lattice on
+/// which all are exact.
+[[nodiscard]] std::shared_ptr<SolidState> evaluate_flat(const Translation& translation,
+                                                        const EvaluateOptions& options);
+
+}  // namespace trisect::detail
