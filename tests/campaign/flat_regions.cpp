@@ -167,6 +167,16 @@ Solid solid_of(const trisect::PolygonMesh& mesh) {
     }
 }
 
+reference::Rational rational(double v) { return reference::Rational(v); }
+
+// Doubles of corners that are nearly on a line would say so.
+bool turns_left(const trisect::Point2d& a, const trisect::Point2d& b, const trisect::Point2d& c) {
+    const auto d = [](double p, double q) {
+        return reference::Rational(rational(q) - rational(p));
+    };
+    return d(a[0], b[0]) * d(a[1], c[1]) > d(a[1], b[1]) * d(a[0], c[0]);
+}
+
 // As a formula over solids: an odd number of triangles, or a mesh.
 Expression solid_formula(const Operand& operand) {
     trisect::PolygonMesh all;
@@ -175,16 +185,14 @@ Expression solid_formula(const Operand& operand) {
         add_prism(all, outline);
         for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
             const auto& [a, b, c] = std::array{outline[0], outline[i], outline[i + 1]};
-            const double turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            const bool left = turns_left(a, b, c);
             trisect::PolygonMesh triangle;
-            add_prism(triangle, turn > 0 ? Outline{a, b, c} : Outline{a, c, b});
+            add_prism(triangle, left ? Outline{a, b, c} : Outline{a, c, b});
             odd = odd ^ solid_of(triangle);
         }
     }
     return operand.odd ? odd : Expression(solid_of(all));
 }
-
-reference::Rational rational(double v) { return reference::Rational(v); }
 
 std::string compare_areas(const Formula& c) {
     std::vector<FlatOperand> operands;
@@ -209,6 +217,21 @@ std::string compare_areas(const Formula& c) {
     if (!(std::abs(rounded - wanted.get_d()) <= 1e-9 * (1 + std::abs(wanted.get_d()))))
         return "a mesh of volume " + std::to_string(rounded);
     return {};
+}
+
+// Cases as text, to look at.
+void print(const Formula& c) {
+    for (const Operand& o : c.operands) {
+        std::printf("%s", o.odd ? "odd" : "positive");
+        for (const Outline& outline : o.outlines) {
+            std::printf(" (");
+            for (const auto& [x, y] : outline) std::printf(" %g,%g", x, y);
+            std::printf(" )");
+        }
+        std::printf("\n");
+    }
+    for (const int o : c.operations) std::printf("%d ", o);
+    std::printf("\n");
 }
 
 std::string compare_sets(const Formula& c) {
@@ -238,6 +261,7 @@ bool run(const Options& options, std::uint64_t i) {
         difference = e.what();
     }
     if (difference.empty()) return true;
+    print(c);
     std::printf("case %llu: %s\n", static_cast<unsigned long long>(i), difference.c_str());
     return false;
 }

@@ -35,7 +35,7 @@ std::string exact(const Solid& solid) { return exact_volume(solid).to_string(); 
 
 void expect_valid(const Solid& solid) {
     const ValidationReport report = validate(solid.to_mesh());
-    EXPECT_TRUE(report.defects.empty()) << report.defects.size() << " defects";
+    EXPECT_TRUE(report.defects().empty()) << report.defects().size() << " defects";
 }
 
 // What a formula of flat prisms and one of solids have in common.
@@ -80,7 +80,7 @@ TEST(FlatPrism, CrossingsThatCoincide) {
     const Solid b = prism({{{0, 3}, {3, 0}, {3, 3}}});
     const Solid c = prism({{{0, 1.5}, {1.5, 0}, {3, 0}}});
     const Solid all = evaluate((a ^ b) | (b & c));
-    const Solid again = evaluate((a | b) - (a & b - c));
+    const Solid again = evaluate((a | b) - (a & (b - c)));
     EXPECT_EQ(exact(evaluate(all - again)), exact(evaluate((all | again) - again)));
     expect_same(evaluate(a & b), evaluate(Expression(a) & Solid(b)));
 }
