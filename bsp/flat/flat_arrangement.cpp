@@ -56,7 +56,7 @@ void FlatArrangement::divide() {
     std::vector<FlatBox> boxes;
     boxes.reserve(segments_.size());
     for (const Segment& s : segments_) boxes.push_back(box_of(s));
-    boxes_.emplace(std::move(boxes));
+    boxes_.emplace(boxes);
     same_.resize(figure_.vertices.size());
     for (std::size_t i = 0; i < same_.size(); ++i) same_[i] = static_cast<Index>(i);
     std::size_t looked_at = 0;

@@ -30,7 +30,7 @@ struct FlatBox {
 /// are short beside all of them, pairs take O(n log n + k).
 class FlatBoxes {
 public:
-    explicit FlatBoxes(std::vector<FlatBox> boxes);
+    explicit FlatBoxes(const std::vector<FlatBox>& boxes);
 
     /// visit(i, j) once for each pair of boxes that meet, in no order.
     template <class Visit>
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t leaf_size = 4;
+    static constexpr std::uint32_t leaf_size = 6;
     struct Node {
         FlatBox box;
         std::uint32_t begin = 0;
@@ -52,7 +52,12 @@ private:
         std::uint32_t second = 0;  // child; the first one follows; 0: a leaf
     };
 
-    void make(std::uint32_t begin, std::uint32_t end);
+    struct Item {
+        FlatBox box;
+        std::uint32_t number = 0;
+    };
+
+    FlatBox make(std::uint32_t begin, std::uint32_t end);
 
     template <class Visit>
     void within(std::uint32_t n, const Visit& visit) const {
@@ -73,7 +78,7 @@ private:
         if (!a.box.meets(b.box)) return;
         if (a.second == 0 && b.second == 0) {
             for (std::uint32_t i = a.begin; i < a.end; ++i) {
-                if (!boxes_[i].meets(b.box)) continue;
+                if (!items_[i].box.meets(b.box)) continue;
                 for (std::uint32_t j = b.begin; j < b.end; ++j) test(i, j, visit);
             }
         } else if (b.second == 0 || (a.second != 0 && a.end - a.begin >= b.end - b.begin)) {
@@ -86,7 +91,7 @@ private:
     }
     template <class Visit>
     void test(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
-        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+        if (items_[i].box.meets(items_[j].box)) visit(items_[i].number, items_[j].number);
     }
     template <class Visit>
     void meeting(std::uint32_t n, const FlatBox& box, const Visit& visit) const {
@@ -94,15 +99,14 @@ private:
         if (!node.box.meets(box)) return;
         if (node.second == 0) {
             for (std::uint32_t i = node.begin; i < node.end; ++i)
-                if (boxes_[i].meets(box)) visit(order_[i]);
+                if (items_[i].box.meets(box)) visit(items_[i].number);
             return;
         }
         meeting(n + 1, box, visit);
         meeting(node.second, box, visit);
     }
 
-    std::vector<std::uint32_t> order_;
-    std::vector<FlatBox> boxes_;  // in that order
+    std::vector<Item> items_;  // those of a leaf follow each other
     std::vector<Node> nodes_;
 };
 

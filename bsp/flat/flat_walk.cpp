@@ -120,15 +120,33 @@ void FlatWalk::walk_from(Index vertex, std::span<std::uint8_t> sides) {
     }
 }
 
+// The leftmost vertex of each component.
+std::vector<FlatWalk::Index> FlatWalk::component_starts() const {
+    std::vector<Index> root(first_.size() - 1);
+    std::iota(root.begin(), root.end(), Index{0});
+    const auto root_of = [&](Index v) {
+        while (root[v] != v) v = root[v] = root[root[v]];
+        return v;
+    };
+    for (const auto& e : arrangement_.edges()) {
+        const Index p = root_of(e.from);
+        const Index q = root_of(e.to);
+        if (p != q) root[std::max(p, q)] = std::min(p, q);
+    }
+    std::vector<Index> leftmost(root.size(), FlatArrangement::none);
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        if (first_[i] == first_[i + 1]) continue;
+        const auto v = static_cast<Index>(i);
+        Index& known = leftmost[root_of(v)];
+        if (known == FlatArrangement::none || arrangement_.figure().compare(v, known) < 0)
+            known = v;
+    }
+    std::erase(leftmost, FlatArrangement::none);
+    return leftmost;
+}
+
 void FlatWalk::find_sides(std::span<std::uint8_t> sides) {
-    std::vector<Index> order;
-    for (std::size_t v = 0; v + 1 < first_.size(); ++v)
-        if (first_[v] != first_[v + 1]) order.push_back(static_cast<Index>(v));
-    // The leftmost vertex of each component comes before the others.
-    std::sort(order.begin(), order.end(),
-              [&](Index p, Index q) { return arrangement_.figure().compare(p, q) < 0; });
-    for (const Index v : order) {
-        if (is_known_[v]) continue;
+    for (const Index v : component_starts()) {
         check_stop();
         start_at(v);
         walk_from(v, sides);

@@ -46,6 +46,7 @@ private:
     void list_around();
     void sort_around(Index vertex);
     [[nodiscard]] bool is_upper(Index half) const;
+    [[nodiscard]] std::vector<Index> component_starts() const;
     void start_at(Index vertex);
     void end_component();
     void walk_from(Index vertex, std::span<std::uint8_t> sides);
