@@ -37,7 +37,7 @@ FlatBox FlatBoxes::make(std::uint32_t begin, std::uint32_t end) {
     const auto last = items_.begin() + end;
     auto middle = std::partition(first, last, [&](const Item& i) { return centre(i, k) < cut; });
     // Where one side has nearly all, the tree would be deep.
-    const auto least = static_cast<std::ptrdiff_t>((end - begin) / 8);
+    const auto least = static_cast<std::ptrdiff_t>((end - begin + 7) / 8);
     if (middle - first < least || last - middle < least) {
         middle = first + (last - first) / 2;
         std::nth_element(first, middle, last, [&](const Item& i, const Item& j) {

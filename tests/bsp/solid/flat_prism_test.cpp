@@ -63,6 +63,17 @@ TEST(FlatPrism, SidesThatAreCommonAreGone) {
     expect_valid(part);
 }
 
+// Boxes with one centre have nothing to be divided by.
+TEST(FlatPrism, ManySidesWithOneCentre) {
+    std::vector<Outline> stars;
+    for (int i = 1; i <= 12; ++i) {
+        const double size = i;
+        stars.push_back({{-size, -1}, {size, 1}, {-size, 1}, {size, -1}});
+    }
+    EXPECT_EQ(exact(evaluate(prism(stars, OutlineRule::Positive))),
+              exact(evaluate(prism({stars.back()}, OutlineRule::Positive))));
+}
+
 TEST(FlatPrism, TouchingCornersStayOneVertexEach) {
     const Solid both = evaluate(prism({square(0, 1)}) | prism({square(1, 2)}));
     EXPECT_EQ(flat_outlines(both)->points.size(), 7);
