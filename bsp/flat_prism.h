@@ -41,8 +41,9 @@ enum class OutlineRule : std::uint8_t {
 
 /// Its corners under a map, rounded once. Nothing where the map tilts it, so that walls are not
 /// along an axis of space any more.
-[[nodiscard]] std::optional<Solid> flat_prism(std::span<const FlatOutline> outlines, OutlineRule rule,
-                                              double low, double high, const AffineMap& map);
+[[nodiscard]] std::optional<Solid> flat_prism(std::span<const FlatOutline> outlines,
+                                              OutlineRule rule, double low, double high,
+                                              const AffineMap& map);
 
 /// The region of such a prism along the z axis: outlines counter-clockwise, holes clockwise, each
 /// without corners where it goes straight on. Corners that are crossings of others' sides, and no
