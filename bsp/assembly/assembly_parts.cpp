@@ -25,6 +25,7 @@
 #include <variant>
 
 #include <trisect/bsp/assembly/axis/axis_faces.h>
+#include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 #include <trisect/bsp/assembly/parts/fragment_group.h>
 #include <trisect/bsp/assembly/parts/named_edges.h>
@@ -79,7 +80,7 @@ public:
         std::visit([&](const auto& form) { gather(form); }, solid_.form);
         if (needs_tree_) return false;
         finish();
-        return true;
+        return !may_cross_straight_ || !may_lack_crossings(out_);
     }
 
 private:
@@ -128,9 +129,10 @@ private:
     std::uint32_t threads_;
     std::span<const FacetName> incomplete_;  // of a tree
     bool needs_tree_ = false;
-    std::uint64_t first_serial_ = 0;  // of the mesh that stands for both where they have facets in
-                                      // common; these may pass through
-    bool defers_ = false;             // crossings of all leaves in general position are known
+    bool may_cross_straight_ = false;  // faces of outlines
+    std::uint64_t first_serial_ = 0;   // of the mesh that stands for both where they have facets in
+                                       // common; these may pass through
+    bool defers_ = false;              // crossings of all leaves in general position are known
     std::vector<AssembledLeaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
@@ -163,6 +165,7 @@ void Gatherer::gather(const CellTree& tree) {
 // some are in special position, since vertices of others may lie inside their edges.
 void Gatherer::gather(const UndividedMeshes& meshes) {
     first_serial_ = meshes.crossings->operands[0].serial;
+    may_cross_straight_ = meshes.may_have_straight_crossings;
     mark_uncrossed(meshes.uncrossed);
     mark_crossed(*meshes.crossings);
     mark_special(*meshes.crossings);

@@ -63,6 +63,8 @@ struct UndividedMeshes {
     std::shared_ptr<const Crossings> crossings;  ///< not null; where there are outlines, no pairs
     std::shared_ptr<const LazyTree> tree;        ///< not null
     std::shared_ptr<const OutlinedFacets> outlined = nullptr;  ///< of many meshes; else null
+    /// As that of a CellTree, whose outlines may lack such lines.
+    bool may_have_straight_crossings = false;
 };
 
 /// A set of prisms along one axis, without a tree: facets that are whole, and the rest of the

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include <trisect/bsp/cells/axis_polygon.h>
@@ -157,23 +158,27 @@ bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solid
     return are_two_meshes(formula, solids, options);
 }
 
-// Where facets across the axes, or few of prisms, have planes in common, one leaf has them all. But
-// prisms whose caps meet are no arrangement of segments.
+// Where facets across the axes, or few of prisms in one place, have planes in common, one leaf has
+// them all. But prisms whose caps meet are no arrangement of segments.
 bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateSettings& options) {
     if (!are_many_meshes(formula, solids, options)) return false;
-    const auto ends_are = [&](auto test) {
+    const auto some_are = [&](std::initializer_list<std::size_t> quarters, auto test) {
         return std::ranges::all_of(solids, [&](const auto& s) {
             const PolygonList& polygons = s->root().node->polygons();
-            return test(polygons[0]) && test(polygons[polygons.size() - 1]);
+            return std::ranges::all_of(quarters, [&](std::size_t q) {
+                return test(polygons[q * (polygons.size() - 1) / 4]);
+            });
         });
     };
-    if (ends_are([](const PolygonRef& r) { return is_axis_polygon(r); })) return false;
-    if (do_stand_on_each_other(solids)) return true;
+    // Spheres may end in caps.
+    if (some_are({0, 4, 2, 1, 3}, [](const PolygonRef& r) { return is_axis_polygon(r); }))
+        return false;
+    if (!do_fill_one_place(solids) || do_stand_on_each_other(solids)) return true;
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
     return all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons ||
-           !ends_are([](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
+           !some_are({0, 4}, [](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
 }
 
 // --- The table.
@@ -207,13 +212,12 @@ constexpr std::array all_rules{
          "planes, none through a corner; no work limit",
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
-    Rule{
-        "many meshes",
-        "∪, ∩ or − of three imported meshes or more whose boxes mostly overlap, or stand on each "
-        "other, or the first one's has half of all, or of such; none with an index, not all across "
-        "the axes or a leaf of prisms; no limits",
-        "uncrossed facets, outlines", &Stats::filtered_leaves,
-        FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
+    Rule{"many meshes",
+         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
+         "stand on each other, or the first one's has half of all, or of few facets whose boxes "
+         "touch; none with an index, not all across the axes or a leaf of prisms; no limits",
+         "uncrossed facets, outlines", &Stats::filtered_leaves,
+         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",
          &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
     Rule{"share", "one operand is left, and it is embedded",

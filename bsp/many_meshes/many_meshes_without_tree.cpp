@@ -10,7 +10,8 @@
 //
 // Of unions and intersections of each other the terms of the innermost come first. A union is the
 // complement of what the complements of its terms have in common. Where something touches there,
-// cells are better: lines in which faces go straight across each other are edges of the result.
+// faces of the result may go straight across each other in a line that an outline lacks; assembly
+// looks for such lines.
 //
 // Where meshes touch, operands are moved by less than any number (operand_shifts.h), which puts all
 // in general position. Assembly moves them back: parts without an area are left out then. Facets
@@ -64,6 +65,11 @@ constexpr double large_first_part = 0.5;
 // The part of all operands of which boxes stand on each other: there cells are arranged exactly.
 constexpr double standing_part = 0.5;
 
+// So few facets are compared pair by pair wherever they are, where such a part of all operands may
+// touch others: cells would be arranged exactly.
+constexpr std::size_t few_facets = 20000;
+constexpr double touching_part = 0.125;
+
 enum class Crowd : std::uint8_t { None, All, InFirst };
 
 // Whether a box ends where another one begins, and they have a part of a plane in common.
@@ -78,9 +84,9 @@ bool stands(const Box& a, const Box& b) {
     return false;
 }
 
-bool are_enough(std::span<const std::uint8_t> found) {
+bool are_enough(std::span<const std::uint8_t> found, double part) {
     const auto count = static_cast<double>(std::ranges::count(found, 1));
-    return count >= standing_part * static_cast<double>(found.size());
+    return count > 0 && count >= part * static_cast<double>(found.size());
 }
 
 // Whether enough boxes begin or end at a coordinate at which another one ends or begins.
@@ -102,7 +108,7 @@ bool may_stand(std::span<const Box> boxes) {
                 std::ranges::binary_search(begins, boxes[i].hi[k]))
                 found[i] = 1;
     }
-    return are_enough(found);
+    return are_enough(found, standing_part);
 }
 
 // Looks at neighbours in the order along each axis.
@@ -122,7 +128,46 @@ bool do_stand(std::span<const Box> boxes) {
                 if (stands(a, boxes[order[j]])) found[order[i]] = found[order[j]] = 1;
         }
     }
-    return are_enough(found);
+    return are_enough(found, standing_part);
+}
+
+std::vector<Box> boxes_of(const SolidStates& solids) {
+    std::vector<Box> boxes;
+    for (const auto& s : solids) boxes.push_back(source_of(*s).box());
+    return boxes;
+}
+
+bool are_few(const SolidStates& solids) {
+    std::size_t facets = 0;
+    for (const auto& s : solids) facets += source_of(*s).facet_count();
+    return facets <= few_facets;
+}
+
+// Whether two boxes that meet begin or end at one coordinate, or lie about one: then edges of round
+// shapes cross edges.
+bool may_touch(const Box& a, const Box& b) {
+    if (!a.overlaps(b)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+        if (a.lo[k] == b.lo[k] || a.lo[k] == b.hi[k] || a.hi[k] == b.lo[k] || a.hi[k] == b.hi[k] ||
+            a.lo[k] + a.hi[k] == b.lo[k] + b.hi[k])
+            return true;
+    return false;
+}
+
+// Whether that holds for enough of them. Each looks at those that begin before it ends.
+bool may_touch(std::vector<Box> boxes) {
+    Box all;
+    for (const Box& b : boxes) all.add(b);
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k)
+        if (all.hi[k] - all.lo[k] > all.hi[axis] - all.lo[axis]) axis = k;
+    std::ranges::sort(boxes, {}, [&](const Box& b) { return b.lo[axis]; });
+    std::vector<std::uint8_t> found(boxes.size(), 0);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[axis] <= boxes[i].hi[axis]; ++j)
+            if ((found[i] == 0 || found[j] == 0) && may_touch(boxes[i], boxes[j]))
+                found[i] = found[j] = 1;
+    return are_enough(found, touching_part);
 }
 
 Crowd crowd_of(const SolidStates& solids) {
@@ -255,12 +300,10 @@ private:
             return out;
         }
         const std::size_t middle = first + (end - first) / 2;
-        std::optional<OutlinedSolid> out = common_of(
+        return common_of(
             facets_of_terms(node, first, end), stats,
             [&](EvaluateStats& s) { return of_terms(node, first, middle, s); },
             [&](EvaluateStats& s) { return of_terms(node, middle, end, s); });
-        if (!out || is_special()) return std::nullopt;
-        return out;
     }
 
     using Pair = std::pair<std::optional<OutlinedSolid>, std::optional<OutlinedSolid>>;
@@ -291,13 +334,6 @@ private:
         return common.of(*std::move(below), *std::move(above), stats);
     }
 
-    // Of this thread so far.
-    [[nodiscard]] bool is_special() const {
-        return !common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); })
-                    .special()
-                    .facets()
-                    .empty();
-    }
     [[nodiscard]] std::size_t facets_of_terms(const NestedFormula::Node& node, std::size_t first,
                                               std::size_t end) const {
         std::size_t n = 0;
@@ -389,7 +425,6 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
                 wanted.push_back(w);
             }
         });
-        if (meshes.nested != nullptr && !out.special.empty()) return std::nullopt;
         if (as_wanted) {
             add_sharing(out, meshes.facet_count());
             stats = made;
@@ -469,15 +504,13 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                      const EvaluateSettings& options) {
     if (!may_be_many_meshes(formula, solids, options)) return false;
     if (crowd_of(solids) != Crowd::None) return true;
-    // What touches in a nested formula is left to cells.
-    return crossings_of(*formula, solids).has_value() && do_stand_on_each_other(solids);
+    const std::vector<Box> boxes = boxes_of(solids);
+    return do_stand(boxes) || (are_few(solids) && may_touch(boxes));
 }
 
-bool do_stand_on_each_other(const SolidStates& solids) {
-    std::vector<Box> boxes;
-    for (const auto& s : solids) boxes.push_back(source_of(*s).box());
-    return do_stand(boxes);
-}
+bool do_fill_one_place(const SolidStates& solids) { return crowd_of(solids) == Crowd::All; }
+
+bool do_stand_on_each_other(const SolidStates& solids) { return do_stand(boxes_of(solids)); }
 
 std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula,
                                                     const SolidStates& solids,
@@ -510,6 +543,7 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
     if (!result) return std::nullopt;
     operands->special = std::move(result->special);
     UndividedMeshes form = form_of(result->solid, meshes, *operands, std::move(tree));
+    form.may_have_straight_crossings = nested && !operands->special.empty();
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();
     stats = made;
     return form;

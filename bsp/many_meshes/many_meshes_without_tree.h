@@ -18,10 +18,13 @@ namespace trisect::detail {
 [[nodiscard]] bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                       const EvaluateSettings& options);
 /// And whether their boxes mostly overlap, or stand on each other, or the first one's has half of
-/// all: else more is compared pair by pair than in cells.
+/// all, or they have few facets and boxes that touch: else more is compared pair by pair than in
+/// cells.
 [[nodiscard]] bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                    const EvaluateSettings& options);
 
+/// Whether boxes mostly overlap. \pre may_be_many_meshes() of some formula
+[[nodiscard]] bool do_fill_one_place(const SolidStates& solids);
 /// Whether boxes of at least half of all end where other ones begin, with a part of a plane in
 /// common. \pre may_be_many_meshes() of some formula. O(n log n)
 [[nodiscard]] bool do_stand_on_each_other(const SolidStates& solids);

@@ -49,4 +49,8 @@ struct WholeFacetEdge {
 [[nodiscard]] std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
                                                           std::span<const BoundaryEdge> edges);
 
+/// Of outlines of moved meshes: whether an edge may be missing in which faces go straight across
+/// each other. \pre edges on one segment have the same ends. May say yes too often.
+[[nodiscard]] bool may_lack_crossings(const BoundaryParts& parts);
+
 }  // namespace trisect::detail
