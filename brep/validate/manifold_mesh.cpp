@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include <trisect/brep/import/volume_sign.h>
+#include <trisect/brep/validate/convex_surface.h>
 #include <trisect/brep/validate/sheet_grid.h>
 #include <trisect/brep/validate/sheets.h>
 #include <trisect/brep/validate/shell_nesting.h>
@@ -60,6 +61,7 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
 }
 
 std::optional<bool> ManifoldMesh::has_no_contact() const {
+    if (is_convex_surface(points_, triangles_, twins_)) return true;
     const auto sheets = find_sheets(points_, triangles_, twins_);
     if (!sheets) return std::nullopt;
     end_step();
