@@ -6,9 +6,11 @@
 // of the fan; then the fan lies on the boundary of a convex cone, and goes around that once where
 // what lies in one plane comes in one row.
 
-#include <trisect/brep/validate/convex_surface.h>
+#include <trisect/brep/validate/manifold_mesh.h>
 
-#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
 
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
@@ -75,9 +77,8 @@ private:
 
 }  // namespace
 
-bool is_convex_surface(std::span<const LatticePoint> points, std::span<const Triangle> triangles,
-                       const Twins& twins) {
-    return ConvexSurface(points, triangles, twins).is_convex();
+bool ManifoldMesh::is_convex() const {
+    return ConvexSurface(points_, triangles_, twins_).is_convex();
 }
 
 }  // namespace trisect::detail

@@ -8,7 +8,6 @@
 #include <algorithm>
 
 #include <trisect/brep/import/volume_sign.h>
-#include <trisect/brep/validate/convex_surface.h>
 #include <trisect/brep/validate/sheet_grid.h>
 #include <trisect/brep/validate/sheets.h>
 #include <trisect/brep/validate/shell_nesting.h>
@@ -61,7 +60,7 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
 }
 
 std::optional<bool> ManifoldMesh::has_no_contact() const {
-    if (is_convex_surface(points_, triangles_, twins_)) return true;
+    if (is_convex()) return true;
     const auto sheets = find_sheets(points_, triangles_, twins_);
     if (!sheets) return std::nullopt;
     end_step();

@@ -35,6 +35,12 @@ public:
     /// ordinary meshes. \throw CancelledError, LimitError by the StopScope
     [[nodiscard]] std::optional<bool> has_no_contact() const;
 
+    /// Whether it is plainly the boundary of a convex solid, seen from outside: then no two
+    /// triangles meet beyond the corners and edges that they share. Exact; false as well where a
+    /// corner lies within a face. Ends at the first edge that is not convex. O(n) where few edges
+    /// meet in a corner.
+    [[nodiscard]] bool is_convex() const;
+
 private:
     ManifoldMesh(std::span<const LatticePoint> points, std::span<const Triangle> triangles,
                  Twins twins)

@@ -103,7 +103,6 @@ set(private_headers
     brep/primitives/cap.h
     brep/primitives/circle.h
     brep/validate/checked_mesh.h
-    brep/validate/convex_surface.h
     brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
     brep/validate/fans.h

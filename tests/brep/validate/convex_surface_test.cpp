@@ -2,9 +2,8 @@
 //
 // Local convexity, against that of the whole and against validation, which compares all pairs.
 
-#include <trisect/brep/validate/convex_surface.h>
-
-#include <cmath>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -17,6 +16,7 @@
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/hull.h>
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/validate.h>
 
 #include "support/mesh_builders.h"
@@ -28,8 +28,8 @@ using trisect::LatticeMesh;
 using trisect::PolygonMesh;
 
 bool is_convex_surface(const LatticeMesh& mesh) {
-    const auto twins = trisect::detail::Twins::of(mesh.points.size(), mesh.triangles);
-    return twins && trisect::detail::is_convex_surface(mesh.points, mesh.triangles, *twins);
+    const auto manifold = trisect::detail::ManifoldMesh::of(mesh.points, mesh.triangles);
+    return manifold && manifold->is_convex();
 }
 
 bool is_convex_surface(const PolygonMesh& mesh) {
