@@ -87,6 +87,29 @@ Side side_of(const Point& point, const Plane& plane) {
     return side_of(p.exact, plane);
 }
 
+namespace {
+
+// A plane across the axis that names the point; null where there is none.
+const Plane* plane_across(const Point& p, int axis) {
+    const PlanePoint* const named = p.plane_point();
+    if (named == nullptr) return nullptr;
+    const auto at = std::ranges::find_if(named->planes, [&](const Plane& plane) {
+        return plane.approx_normal((axis + 1) % 3) == 0 && plane.approx_normal((axis + 2) % 3) == 0;
+    });
+    return at == named->planes.end() ? nullptr : &*at;
+}
+
+// Points of one plane across an axis are many where solids are flush.
+bool are_in_one_plane_across(const Point& a, const Point& b, int axis) {
+    const Plane* const p = plane_across(a, axis);
+    const Plane* const q = plane_across(b, axis);
+    if (p != nullptr && q != nullptr) return is_same_plane(*p, *q);
+    if (p != nullptr && b.is_lattice()) return side_of(b.lattice(), *p) == Side::On;
+    return q != nullptr && a.is_lattice() && side_of(a.lattice(), *q) == Side::On;
+}
+
+}  // namespace
+
 std::strong_ordering compare_coordinate(const Point& a, const Point& b, int axis) {
     const auto i = static_cast<std::size_t>(axis);
     if (a.is_lattice() && b.is_lattice()) return a.lattice()[axis] <=> b.lattice()[axis];
@@ -95,6 +118,7 @@ std::strong_ordering compare_coordinate(const Point& a, const Point& b, int axis
     const double v = b.approximation().c[i];
     if (u < v) return std::strong_ordering::less;
     if (u > v) return std::strong_ordering::greater;
+    if (are_in_one_plane_across(a, b, axis)) return std::strong_ordering::equal;
     return compare_coordinate(a.homogeneous(), b.homogeneous(), axis);
 }
 
