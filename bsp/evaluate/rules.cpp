@@ -153,6 +153,9 @@ bool are_small_operands(const CellView& view) {
 
 bool may_be_divided(const CellView& view) { return !view.undividable; }
 
+// One arrangement of segments is for prisms of few facets that cross each other everywhere.
+constexpr std::uint64_t few_of_prism = 64;
+
 bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solids,
                           const EvaluateSettings& options) {
     return are_two_meshes(formula, solids, options);
@@ -178,6 +181,7 @@ bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& sol
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
     return all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons ||
+           all > solids.size() * few_of_prism ||
            !some_are({0, 4}, [](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
 }
 
@@ -215,7 +219,8 @@ constexpr std::array all_rules{
     Rule{"many meshes",
          "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
          "stand on each other, or the first one's has half of all, or of few facets whose boxes "
-         "touch; none with an index, not all across the axes or a leaf of prisms; no limits",
+         "touch or are apart; none with an index, not all across the axes or a leaf of prisms; no "
+         "limits",
          "uncrossed facets, outlines", &Stats::filtered_leaves,
          FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",

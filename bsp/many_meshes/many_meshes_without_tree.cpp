@@ -143,10 +143,9 @@ bool are_few(const SolidStates& solids) {
     return facets <= few_facets;
 }
 
-// Whether two boxes that meet begin or end at one coordinate, or lie about one: then edges of round
-// shapes cross edges.
+// Whether two boxes begin or end at one coordinate, or lie about one: then edges of round shapes
+// cross edges.
 bool may_touch(const Box& a, const Box& b) {
-    if (!a.overlaps(b)) return false;
     for (std::size_t k = 0; k < 3; ++k)
         if (a.lo[k] == b.lo[k] || a.lo[k] == b.hi[k] || a.hi[k] == b.lo[k] || a.hi[k] == b.hi[k] ||
             a.lo[k] + a.hi[k] == b.lo[k] + b.hi[k])
@@ -154,8 +153,9 @@ bool may_touch(const Box& a, const Box& b) {
     return false;
 }
 
-// Whether that holds for enough of them. Each looks at those that begin before it ends.
-bool may_touch(std::vector<Box> boxes) {
+// Whether that holds for enough of those that meet, or none do. Each looks at those that begin
+// before it ends.
+bool may_touch_or_are_apart(std::vector<Box> boxes) {
     Box all;
     for (const Box& b : boxes) all.add(b);
     std::size_t axis = 0;
@@ -163,11 +163,16 @@ bool may_touch(std::vector<Box> boxes) {
         if (all.hi[k] - all.lo[k] > all.hi[axis] - all.lo[axis]) axis = k;
     std::ranges::sort(boxes, {}, [&](const Box& b) { return b.lo[axis]; });
     std::vector<std::uint8_t> found(boxes.size(), 0);
-    for (std::size_t i = 0; i < boxes.size(); ++i)
-        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[axis] <= boxes[i].hi[axis]; ++j)
-            if ((found[i] == 0 || found[j] == 0) && may_touch(boxes[i], boxes[j]))
-                found[i] = found[j] = 1;
-    return are_enough(found, touching_part);
+    bool are_apart = true;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const Box& a = boxes[i];
+        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[axis] <= a.hi[axis]; ++j) {
+            if (!a.overlaps(boxes[j])) continue;
+            are_apart = false;
+            if ((found[i] == 0 || found[j] == 0) && may_touch(a, boxes[j])) found[i] = found[j] = 1;
+        }
+    }
+    return are_apart || are_enough(found, touching_part);
 }
 
 Crowd crowd_of(const SolidStates& solids) {
@@ -505,7 +510,7 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
     if (!may_be_many_meshes(formula, solids, options)) return false;
     if (crowd_of(solids) != Crowd::None) return true;
     const std::vector<Box> boxes = boxes_of(solids);
-    return do_stand(boxes) || (are_few(solids) && may_touch(boxes));
+    return do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes));
 }
 
 bool do_fill_one_place(const SolidStates& solids) { return crowd_of(solids) == Crowd::All; }
