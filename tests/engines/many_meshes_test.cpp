@@ -277,6 +277,30 @@ TEST(ManyMeshes, AFaceCrossesTwoThatTouch) {
                   reference::tetrahedron({5, 4, 2}, {14, 4, 11}, {13, 3, 5}, {4, 3, 0})});
 }
 
+// A ridge stands with its edge where the edge of a groove below reaches up to the same face, and
+// both have the same two planes: the faces of all three planes go straight across the line.
+TEST(ManyMeshes, FacesCrossStraightInALine) {
+    Count count;
+    for (std::size_t turns = 0; turns < 3; ++turns)
+        for (const std::int64_t end : {9, 10, 11}) {
+            SCOPED_TRACE(std::to_string(turns) + ", " + std::to_string(end));
+            std::vector<Operand> operands{
+                reference::prism({{0, 0}, {20, 0}, {20, 10}, {0, 10}}, 0, 10),
+                reference::prism({{10, 10}, {8, 6}, {12, 6}}, 10 - end, end),
+                reference::prism({{10, 10}, {12, 14}, {8, 14}}, 0, 10)};
+            for (Operand& o : operands) o = reference::axes_rotated(o, turns);
+            expect_agreement(
+                operands,
+                Expression::node(
+                    Kind::Union,
+                    {Expression::node(Kind::Difference, {Expression::leaf(0), Expression::leaf(1)}),
+                     Expression::leaf(2)}),
+                count);
+        }
+    EXPECT_EQ(count.without_tree, 9);
+    EXPECT_EQ(count.by_tree, 9);
+}
+
 // Copies along an axis, parts on top of each other, tools flush with what they cut.
 TEST(ManyMeshes, InSpecialPositionByAnyThread) {
     std::vector<Operand> stack;
