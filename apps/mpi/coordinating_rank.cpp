@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "model_cache.h"
+#include "region_owners.h"
 #include "trisect/clash_command.h"
 #include "trisect/clash_id.h"
 #include "trisect/clash_output.h"
@@ -44,7 +45,9 @@ CoordinatingRank::CoordinatingRank(Session& session, const RankClashOptions& opt
       options_(options),
       is_open_(is_open),
       station_(session, options, ranks_),
-      all_(static_cast<std::size_t>(Ranks::count())) {}
+      all_(static_cast<std::size_t>(Ranks::count())),
+      surveys_(all_.size()),
+      surveys_left_(all_.size()) {}
 
 Outcome CoordinatingRank::run() {
     session_.plan(5);
@@ -146,7 +149,7 @@ void CoordinatingRank::read_files() {
 void CoordinatingRank::divide() {
     if (coordinator_->is_over()) return;
     send_to_all(Ranks::Files, bytes_of(coordinator_->files()));
-    attend([&] { return surveys_.size() == all_.size(); });
+    attend([&] { return surveys_left_ == 0; });
     const PartSurvey* failed = nullptr;
     for (const PartSurvey& s : surveys_)
         if (s.code != 0 && (failed == nullptr || s.failed_part < failed->failed_part)) failed = &s;
@@ -168,10 +171,9 @@ void CoordinatingRank::divide() {
 RegionPlan CoordinatingRank::plan_regions() {
     std::vector<SampledBox> sample;
     std::uint64_t boxes = 0;
-    for (PartSurvey& s : surveys_) {
+    for (const PartSurvey& s : surveys_) {
         boxes += s.boxes;
         sample.insert(sample.end(), s.sample.begin(), s.sample.end());
-        s.sample = {};
     }
     std::ranges::sort(sample, {}, &SampledBox::hash);
     std::vector<ClashBox> in_order;
@@ -181,8 +183,10 @@ RegionPlan CoordinatingRank::plan_regions() {
     ClashLoads loads(in_order, each, ClashLimits(manifest_.sets, manifest_.groups.size()));
     const double load = loads.all();
     const double most = load / std::max(std::ceil(all / boxes_of_a_region), 1.0) * std::sqrt(2.0);
-    return {ClashDivision(std::move(loads), unbounded_space(), most),
-            ClashTiles::most_load(load, all)};
+    ClashDivision regions(std::move(loads), unbounded_space(), most);
+    std::vector<std::uint32_t> owners = region_owners(regions, surveys_);
+    for (PartSurvey& s : surveys_) s.sample = {};
+    return {std::move(regions), ClashTiles::most_load(load, all), std::move(owners)};
 }
 
 void CoordinatingRank::attend(const std::function<bool()>& is_done) {
@@ -207,26 +211,34 @@ bool CoordinatingRank::take_messages() {
         if (station_.take(*message)) continue;
         if (message->tag == Ranks::Summary)
             summaries_.push_back(manifest_summary_of(message->bytes));
-        if (message->tag == Ranks::Survey) surveys_.push_back(part_survey_of(message->bytes));
+        if (message->tag == Ranks::Survey) {
+            surveys_[static_cast<std::size_t>(message->from)] = part_survey_of(message->bytes);
+            --surveys_left_;
+        }
         if (message->tag == Ranks::Tiles) tiles_.push_back(tile_survey_of(message->bytes));
         if (message->tag == Ranks::Result)
-            accept(static_cast<std::size_t>(message->from), rank_result_of(message->bytes));
+            accept(static_cast<std::size_t>(message->from), rank_answer_of(message->bytes));
     }
     return has_come;
 }
 
-void CoordinatingRank::accept(std::size_t rank, RankResult&& result) {
+void CoordinatingRank::accept(std::size_t rank, RankAnswer&& answer) {
+    if (answer.is_of_order) --all_[rank].has;
+    for (RankResult& result : answer.results) accept_result(rank, std::move(result));
+    if (coordinator_) coordinator_->take_back(answer.left);
+}
+
+void CoordinatingRank::accept_result(std::size_t rank, RankResult&& result) {
     Rank& from = all_[rank];
     using Kind = RankResult::Kind;
     if (result.kind == Kind::End) {
         from.has_ended = true;
-        from.end = std::move(result);
+        from.end = result.end;
         return;
     }
     if (result.kind == Kind::Ready) from.is_ready = true;
     if (result.kind == Kind::File || result.kind == Kind::Tile) {
         ++from.tasks;
-        --from.has;
         from.seconds += result.seconds;
     }
     if (coordinator_)
@@ -238,13 +250,13 @@ void CoordinatingRank::accept(std::size_t rank, RankResult&& result) {
 bool CoordinatingRank::give_all() {
     if (!coordinator_) return false;
     bool has_gone = false;
-    const std::size_t ahead = coordinator_->ahead();
     // One to each in turn.
     for (bool again = true; again;) {
         again = false;
         for (std::size_t r = 0; r < all_.size(); ++r) {
             RankOrder order;
-            if (!all_[r].is_ready || all_[r].has >= ahead || !coordinator_->next(r, order))
+            if (!all_[r].is_ready || all_[r].has >= Coordinator::ahead ||
+                !coordinator_->next(r, order))
                 continue;
             ++all_[r].has;
             again = has_gone = true;
@@ -360,6 +372,9 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
         r["all_processor_seconds"] = rank.end.seconds;
         r["memory"] = rank.end.memory;
         r["files_read"] = rank.end.reads;
+        r["idle_seconds"] = rank.end.idle;
+        r["messages"] = rank.end.messages;
+        r["message_bytes"] = rank.end.bytes;
         out.document["ranks"].push_back(std::move(r));
     }
     out.document["seconds"] = session_.seconds();

@@ -33,7 +33,7 @@ private:
         std::size_t has = 0;  ///< orders
         std::size_t tasks = 0;
         double seconds = 0;
-        RankResult end;
+        RankEnd end;
         bool has_ended = false;
     };
 
@@ -45,7 +45,8 @@ private:
     /// Until it is so, or the run is over.
     void attend(const std::function<bool()>& is_done);
     [[nodiscard]] bool take_messages();
-    void accept(std::size_t rank, RankResult&& result);
+    void accept(std::size_t rank, RankAnswer&& answer);
+    void accept_result(std::size_t rank, RankResult&& result);
     [[nodiscard]] bool give_all();
     void send_to_all(Ranks::Tag tag, const std::string& bytes);
     [[nodiscard]] RegionPlan plan_regions();
@@ -64,7 +65,8 @@ private:
     RankStation station_;
     std::vector<Rank> all_;
     std::vector<ManifestSummary> summaries_;
-    std::vector<PartSurvey> surveys_;
+    std::vector<PartSurvey> surveys_;  // by rank
+    std::size_t surveys_left_;
     std::vector<TileSurvey> tiles_;
     ClashManifest manifest_;  // with the parts of clashes
     RankStart start_;

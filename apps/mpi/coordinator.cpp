@@ -15,12 +15,14 @@
 namespace trisect::app {
 namespace {
 
-// Orders that a rank has ahead take at least so many seconds, unless they are too many.
-constexpr double seconds_ahead = 0.005;
-constexpr std::size_t least_ahead = 2;
-constexpr std::size_t most_ahead = 16;
-// And are no more than one in so many of what is left to a rank.
-constexpr std::size_t orders_of_which_one_is_ahead = 4;
+// An order is at most one in so many of what is left to a rank, and of the share of each in all
+// that is left.
+constexpr std::size_t orders_of_a_rank = 4;
+constexpr std::size_t orders_of_all = 2;
+// And takes some milliseconds at most, where it is known what pieces take: then a rank that hands
+// back the rest has not held much.
+constexpr double seconds_of_an_order = 0.01;
+constexpr std::size_t pieces_of_unknown_cost = 16;
 
 std::uint64_t size_of(const std::string& file) {
     std::error_code error;
@@ -62,47 +64,71 @@ void Coordinator::take_over(const FinishedPieces& done) {
 
 bool Coordinator::next_file(RankOrder& order) {
     if (next_file_ == file_order_.size()) return false;
-    order = {RankOrder::Kind::File, file_order_[next_file_++], 0, 0, 0};
+    order.kind = RankOrder::Kind::File;
+    order.pieces.push_back({file_order_[next_file_++], 0, 0});
     return true;
 }
 
 bool Coordinator::next(std::size_t rank, RankOrder& order) {
+    order = {};
     if (is_over()) return false;
     if (!has_tiles_) return next_file(order);
-    if (!slices_.empty()) {
-        order = tile_order(slices_.front());
+    order.kind = RankOrder::Kind::Tile;
+    return slices_.empty() ? next_tiles(rank, order) : next_slices(order);
+}
+
+std::size_t Coordinator::pieces_of(std::size_t share) const {
+    share = std::max<std::size_t>(1, share);
+    if (costs_.empty()) return std::min(share, pieces_of_unknown_cost);
+    const double each = seconds_ / static_cast<double>(costs_.size());
+    const double most = std::max(1.0, seconds_of_an_order / std::max(each, 1e-9));
+    return static_cast<double>(share) < most ? share : static_cast<std::size_t>(most);
+}
+
+void Coordinator::add_piece(RankOrder& order, std::uint64_t number) const {
+    const Tile& tile = tiles_[tile_of(number)];
+    order.owner = tile.owner;
+    order.pieces.push_back({number, tile.region, tile.number});
+}
+
+// Of one rank's tiles.
+bool Coordinator::next_slices(RankOrder& order) {
+    const std::uint32_t owner = tiles_[tile_of(slices_.front())].owner;
+    for (std::size_t n = pieces_of(slices_.size() / (orders_of_all * left_.size()));
+         n != 0 && !slices_.empty() && tiles_[tile_of(slices_.front())].owner == owner; --n) {
+        add_piece(order, slices_.front());
         slices_.pop_front();
-        return true;
     }
-    if (!left_[rank].empty()) {
-        order = tile_order(tile_piece(left_[rank].front(), 0));
-        left_[rank].pop_front();
-        --not_ordered_;
-        return true;
-    }
-    // From the other end.
-    Left& most = *std::ranges::max_element(left_, {}, &Left::size);
-    if (most.empty()) return false;
-    order = tile_order(tile_piece(most.back(), 0));
-    most.pop_back();
-    --not_ordered_;
     return true;
 }
 
-RankOrder Coordinator::tile_order(std::uint64_t piece) const {
-    const Tile& tile = tiles_[tile_of(piece)];
-    return {RankOrder::Kind::Tile, piece, tile.owner, tile.region, tile.number};
+bool Coordinator::next_tiles(std::size_t rank, RankOrder& order) {
+    const bool has_own = !left_[rank].empty();
+    Left& from = has_own ? left_[rank] : *std::ranges::max_element(left_, {}, &Left::size);
+    if (from.empty()) return false;
+    const std::size_t n = pieces_of(
+        std::min(from.size() / orders_of_a_rank, not_ordered_ / (orders_of_all * left_.size())));
+    not_ordered_ -= n;
+    for (std::size_t i = 0; i < n; ++i) {
+        // Those of others from the other end.
+        add_piece(order, tile_piece(has_own ? from.front() : from.back(), 0));
+        has_own ? from.pop_front() : from.pop_back();
+    }
+    return true;
 }
 
-std::size_t Coordinator::ahead() const {
-    if (costs_.empty() || !(seconds_ > 0)) return least_ahead;
-    const double wanted = seconds_ahead * static_cast<double>(costs_.size()) / seconds_;
-    // What a rank has, no other one can take.
-    const std::size_t most = std::clamp(
-        not_ordered_ / (orders_of_which_one_is_ahead * left_.size()), least_ahead, most_ahead);
-    return wanted < static_cast<double>(most)
-               ? std::max(least_ahead, static_cast<std::size_t>(std::ceil(wanted)))
-               : most;
+void Coordinator::take_back(const std::vector<RankPiece>& pieces) {
+    for (std::size_t i = pieces.size(); i-- > 0;) {
+        const std::uint64_t number = pieces[i].number;
+        if (!has_tiles_) {
+            file_order_.push_back(number);
+        } else if (slice_of(number) != 0 || tiles_[tile_of(number)].slices != 0) {
+            slices_.push_front(number);
+        } else {
+            left_[tiles_[tile_of(number)].owner].push_front(tile_of(number));
+            ++not_ordered_;
+        }
+    }
 }
 
 void Coordinator::accept(RankResult&& result) {
@@ -141,7 +167,7 @@ void Coordinator::begin_tiles(const RegionPlan& plan, const std::vector<TileSurv
     for (const TileSurvey& survey : surveys)
         for (const auto& [region, tiles] : survey.regions) regions[region] = &tiles;
     for (std::uint32_t r = 0; r < regions.size(); ++r) {
-        const auto owner = static_cast<std::uint32_t>(plan.owner(r, left_.size()));
+        const std::uint32_t owner = plan.owners[r];
         std::uint32_t number = 0;
         for (const TileFacts& facts : *regions[r])
             tiles_.push_back({facts, r, number++, owner, 0, 0});

@@ -27,10 +27,12 @@ struct PieceCost {
 };
 
 /// First the files, whose boxes make those of the parts; then the tiles, which ranks made of their
-/// regions. A tile is one order, and the rank that does it says how many slices its pairs are:
-/// those after the first are orders of their own, for whichever rank comes next. So no tile is too
-/// much for one rank. A rank does tiles of its own regions, and when it has none left, those of the
-/// rank that has most.
+/// regions. The rank that does a tile says how many slices its pairs are: those after the first are
+/// pieces of their own, for whichever rank comes next. So no tile is too much for one rank. A rank
+/// does tiles of its own regions, and when it has none left, those of the rank that has most.
+///
+/// An order has many pieces while many are left, a fixed part of what is left to a rank, and at the
+/// end single ones. A rank hands back what it does not come to within some time.
 ///
 /// What the pieces are depends on the manifest alone, and where one is done does not matter. Has
 /// nothing to do with messages, and no parts but those of clashes.
@@ -51,13 +53,14 @@ public:
     /// What a rank is to do. False: nothing at present, or nothing any more.
     [[nodiscard]] bool next(std::size_t rank, RankOrder& order);
     void accept(RankResult&& result);
+    /// What a rank was to do, and has not begun.
+    void take_back(const std::vector<RankPiece>& pieces);
     void fail(int code, const std::string& message);
     /// All is done, or something failed that ends the run.
     [[nodiscard]] bool is_over() const { return failure_ || (has_tiles_ && tiles_left_ == 0); }
     [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
-    /// How many orders a rank has at a time: two, but more where they take next to no time and much
-    /// is left.
-    [[nodiscard]] std::size_t ahead() const;
+    /// How many orders a rank has at a time.
+    static constexpr std::size_t ahead = 2;
 
     /// Of what was done until now, and what was not; once.
     [[nodiscard]] ClashReport take_report();
@@ -85,7 +88,10 @@ private:
     void take_over_tiles();
     void add_slice(std::uint64_t piece, std::uint32_t slices, Json&& found);
     [[nodiscard]] bool next_file(RankOrder& order);
-    [[nodiscard]] RankOrder tile_order(std::uint64_t piece) const;
+    [[nodiscard]] bool next_slices(RankOrder& order);
+    [[nodiscard]] bool next_tiles(std::size_t rank, RankOrder& order);
+    [[nodiscard]] std::size_t pieces_of(std::size_t share) const;
+    void add_piece(RankOrder& order, std::uint64_t number) const;
     [[nodiscard]] bool is_finished(const Tile& tile) const {
         return tile.slices != 0 && tile.done == tile.slices;
     }

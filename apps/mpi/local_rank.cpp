@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "local_rank.h"
 
+#include <chrono>
 #include <utility>
 
 namespace trisect::app {
@@ -25,36 +26,40 @@ void LocalRank::give(RankTask task) {
     changed_.notify_all();
 }
 
-std::optional<RankResult> LocalRank::take() {
+std::optional<RankAnswer> LocalRank::take() {
     const std::lock_guard lock(mutex_);
     if (failure_) std::rethrow_exception(failure_);
-    if (results_.empty()) return std::nullopt;
-    RankResult out = std::move(results_.front());
-    results_.pop_front();
+    if (answers_.empty()) return std::nullopt;
+    RankAnswer out = std::move(answers_.front());
+    answers_.pop_front();
     return out;
 }
 
 void LocalRank::work() {
+    using Clock = std::chrono::steady_clock;
+    std::optional<Clock::time_point> waits_from;
     std::unique_lock lock(mutex_);
     while (true) {
         changed_.wait(lock, [this] { return ends_ || !tasks_.empty(); });
         if (ends_) return;
         const RankTask task = std::move(tasks_.front());
         tasks_.pop_front();
+        if (waits_from) idle_ += std::chrono::duration<double>(Clock::now() - *waits_from).count();
         lock.unlock();
-        std::optional<RankResult> result;
+        std::optional<RankAnswer> answer;
         std::exception_ptr failure;
         try {
-            result = worker_->done(task);
+            answer = worker_->done(task);
         } catch (...) {
             failure = std::current_exception();
         }
+        if (task.order.kind == RankOrder::Kind::Tile) waits_from = Clock::now();
         lock.lock();
         if (failure) {
             failure_ = failure;
             return;
         }
-        results_.push_back(std::move(*result));
+        answers_.push_back(std::move(*answer));
     }
 }
 

@@ -27,9 +27,11 @@ public:
 
     void give(RankTask task);
     /// Null if nothing is finished. \throw CancelledError when the thread was stopped
-    [[nodiscard]] std::optional<RankResult> take();
+    [[nodiscard]] std::optional<RankAnswer> take();
     /// After stop().
     [[nodiscard]] RankWorker& worker() { return *worker_; }
+    /// After stop(): seconds on the clock that it waited between its first tile and its last.
+    [[nodiscard]] double idle() const { return idle_; }
 
 private:
     void work();
@@ -38,9 +40,10 @@ private:
     std::mutex mutex_;  // guards what follows
     std::condition_variable changed_;
     std::deque<RankTask> tasks_;
-    std::deque<RankResult> results_;
+    std::deque<RankAnswer> answers_;
     std::exception_ptr failure_;
     bool ends_ = false;
+    double idle_ = 0;
     std::thread thread_;
 };
 

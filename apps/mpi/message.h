@@ -29,7 +29,7 @@ public:
     template <class T>
     void put_list(const std::vector<T>& list) {
         put(std::uint64_t{list.size()});
-        for (const T& value : list) put(value);
+        bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
     }
     void put_texts(const std::vector<std::string>& texts) {
         put(std::uint64_t{texts.size()});
@@ -56,8 +56,10 @@ public:
     [[nodiscard]] std::string get_text() { return std::string(next(get<std::uint64_t>())); }
     template <class T>
     [[nodiscard]] std::vector<T> get_list() {
-        std::vector<T> out(get<std::uint64_t>());
-        for (T& value : out) value = get<T>();
+        const auto size = get<std::uint64_t>();
+        const std::string_view bytes = next(size * sizeof(T));
+        std::vector<T> out(size);
+        if (size != 0) std::memcpy(out.data(), bytes.data(), bytes.size());
         return out;
     }
     [[nodiscard]] std::vector<std::string> get_texts() {

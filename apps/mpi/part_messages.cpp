@@ -95,6 +95,7 @@ std::string bytes_of(const RegionPlan& plan) {
     out.put_list(plan.regions.nodes());
     out.put_list(plan.regions.cells());
     out.put(plan.most_load);
+    out.put_list(plan.owners);
     return out.take();
 }
 
@@ -102,7 +103,9 @@ RegionPlan region_plan_of(const std::string& bytes) {
     MessageReader in(bytes);
     auto nodes = in.get_list<ClashDivision::Node>();
     auto cells = in.get_list<Bounds>();
-    return {ClashDivision(std::move(nodes), std::move(cells)), in.get<double>()};
+    const auto most_load = in.get<double>();
+    return {ClashDivision(std::move(nodes), std::move(cells)), most_load,
+            in.get_list<std::uint32_t>()};
 }
 
 std::string bytes_of(const TileSurvey& survey) {

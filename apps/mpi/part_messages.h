@@ -49,12 +49,8 @@ struct PartSurvey {
 /// Space, divided into regions of some thousand parts, which belong to ranks.
 struct RegionPlan {
     ClashDivision regions;
-    double most_load = 0;  ///< of a tile
-
-    /// Neighbours mostly belong to the same rank.
-    [[nodiscard]] std::size_t owner(std::size_t region, std::size_t ranks) const {
-        return region * ranks / regions.size();
-    }
+    double most_load = 0;               ///< of a tile
+    std::vector<std::uint32_t> owners;  ///< the rank of each region (region_owners)
 };
 
 struct TileFacts {

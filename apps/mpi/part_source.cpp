@@ -82,7 +82,9 @@ PartList part_list_of(const std::string& bytes) {
 void PartSource::read(const std::string& manifest, std::size_t rank, std::size_t ranks) {
     manifest_.emplace(manifest, ranks);
     is_whole_ = manifest_->shares() != 0;
-    for (std::size_t i = rank; i < manifest_->shares() && is_whole_; i += ranks) {
+    // Those that follow each other: parts that are near are mostly not far from each other there.
+    const std::size_t end = manifest_->shares() * (rank + 1) / ranks;
+    for (std::size_t i = manifest_->shares() * rank / ranks; i < end && is_whole_; ++i) {
         auto share = manifest_->read(i);
         is_whole_ = share.has_value();
         if (share) shares_.push_back(std::move(*share));
@@ -179,7 +181,7 @@ void PartSource::route(const RegionPlan& plan, double clearance,
             owners.clear();
             plan.regions.for_each_cell(
                 posed_box(*files[part.file].box, part.pose), clearance,
-                [&](std::uint32_t region) { owners.push_back(plan.owner(region, ranks)); });
+                [&](std::uint32_t region) { owners.push_back(plan.owners[region]); });
             std::ranges::sort(owners);
             owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
             for (const std::size_t owner : owners)

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "part_messages.h"
@@ -16,27 +15,34 @@
 namespace trisect::app {
 
 /// Divides each of its regions into tiles, and has the parts of each. What they are depends on the
-/// manifest alone: parts are in the order of the hashes of their identities.
+/// manifest alone: parts of a region are in the order of the hashes of their identities.
 class PartStore {
 public:
     void add(ClashPart part) { parts_.push_back(std::move(part)); }
     /// \pre all parts are here
     [[nodiscard]] TileSurvey divide(const RegionPlan& plan, const ClashLimits& limits,
-                                    const std::vector<ClashFile>& files, std::size_t own,
-                                    std::size_t ranks);
+                                    const std::vector<ClashFile>& files, std::size_t own);
+    /// Safe to use from many threads, as part().
     [[nodiscard]] TileParts tile(std::uint32_t region, std::uint32_t tile) const;
+    [[nodiscard]] const ClashPart& part(std::uint32_t number) const { return parts_[number]; }
+    /// For another rank.
+    [[nodiscard]] FetchedTiles fetched(const std::vector<RankPiece>& pieces) const;
 
 private:
     struct Region {
+        std::uint32_t number = 0;
         std::vector<ClashBox> boxes;
-        std::vector<ClashTiles> tiles;  // one, once it was made
+        std::vector<std::uint64_t> hashes;  // of the identities of these, until they are sorted
+        std::vector<ClashTiles> tiles;      // one, once it was made
     };
 
-    void sort_parts();
+    void find_regions(const RegionPlan& plan, std::size_t own);
+    void list_boxes(const RegionPlan& plan, double clearance, const std::vector<ClashFile>& files);
+    static void sort_boxes(Region& region);
 
     std::vector<ClashPart> parts_;
-    std::vector<std::uint32_t> order_;  // places of parts, by number
-    std::map<std::uint32_t, Region> regions_;
+    std::vector<Region> regions_;        // its own
+    std::vector<std::uint32_t> places_;  // of a region in these, by its number
 };
 
 }  // namespace trisect::app

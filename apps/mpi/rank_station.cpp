@@ -57,7 +57,7 @@ bool RankStation::take(const Ranks::Message& message) {
         result.kind = RankResult::Kind::Failure;
         result.code = failure.code;
         result.message = failure.message;
-        answer(result);
+        answer(std::move(result));
     }
     return true;
 }
@@ -77,8 +77,8 @@ void RankStation::handle(const Ranks::Message& message) {
         case Ranks::Parts:
             return add_parts(message.bytes);
         case Ranks::Fetch: {
-            RankTask task{rank_order_of(message.bytes), {}};
-            task.tile = store_->tile(task.order.region, task.order.tile);
+            RankTask task{rank_order_of(message.bytes), {}, nullptr};
+            task.fetched = store_->fetched(task.order.pieces);
             return ranks_.send(message.from, Ranks::Task, bytes_of(task));
         }
         case Ranks::Task:
@@ -108,15 +108,14 @@ void RankStation::start(const std::string& bytes) {
         std::make_unique<RankWorker>(session_, options_.clash, options_.most_bytes, *start_,
                                      rank_journal(options_, Ranks::rank()), kept_));
     kept_.clear();
-    const RankResult ready;
-    answer(ready);
+    answer(RankResult());  // it is ready
 }
 
 void RankStation::obey(const RankOrder& order) {
     if (order.kind == RankOrder::Kind::End) return end();
-    if (order.kind == RankOrder::Kind::File) return local_->give({order, {}});
+    if (order.kind == RankOrder::Kind::File) return local_->give({order, {}, nullptr});
     if (order.owner == own_)
-        local_->give({order, store_->tile(order.region, order.tile)});
+        local_->give({order, {}, &*store_});
     else
         ranks_.send(static_cast<int>(order.owner), Ranks::Fetch, bytes_of(order));
 }
@@ -156,13 +155,13 @@ void RankStation::add_parts(const std::string& bytes) {
 void RankStation::divide_if_all_are_here() {
     if (sources_left_ != 0) return;
     const ClashLimits limits(start_->sets, start_->groups.size());
-    ranks_.send(0, Ranks::Tiles, bytes_of(store_->divide(*plan_, limits, files_, own_, count_)));
+    ranks_.send(0, Ranks::Tiles, bytes_of(store_->divide(*plan_, limits, files_, own_)));
 }
 
 bool RankStation::send_results() {
     bool has_gone = false;
-    while (auto result = local_ ? local_->take() : std::nullopt) {
-        answer(*result);
+    while (const auto done = local_ ? local_->take() : std::nullopt) {
+        answer(*done);
         has_gone = true;
     }
     return has_gone;
@@ -173,11 +172,13 @@ void RankStation::end() {
     if (local_) {
         local_->stop();
         (void)send_results();
-        result = local_->worker().ended();
+        result.end = local_->worker().ended();
+        result.end.idle = local_->idle();
     }
     result.kind = RankResult::Kind::End;
-    result.received = ranks_.bytes();
-    answer(result);
+    result.end.messages = ranks_.messages();
+    result.end.bytes = ranks_.bytes();
+    answer(std::move(result));
     has_ended_ = true;
 }
 
@@ -185,8 +186,14 @@ void RankStation::stop() {
     if (local_) local_->stop();
 }
 
-void RankStation::answer(const RankResult& result) {
-    ranks_.send(0, Ranks::Result, bytes_of(result));
+void RankStation::answer(const RankAnswer& answer) {
+    ranks_.send(0, Ranks::Result, bytes_of(answer));
+}
+
+void RankStation::answer(RankResult&& result) {
+    RankAnswer out;
+    out.results.push_back(std::move(result));
+    answer(out);
 }
 
 void serve(Session& session, const RankClashOptions& options) {

@@ -58,7 +58,8 @@ private:
     void add_parts(const std::string& bytes);
     void divide_if_all_are_here();
     void end();
-    void answer(const RankResult& result);
+    void answer(const RankAnswer& answer);
+    void answer(RankResult&& result);
 
     Session& session_;
     const RankClashOptions& options_;

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "part_store.h"
+
 namespace trisect::app {
 namespace {
 
@@ -19,19 +21,53 @@ std::vector<bool> get_groups(MessageReader& in) {
 
 void put_order(MessageWriter& out, const RankOrder& order) {
     out.put(order.kind);
-    out.put(order.piece);
     out.put(order.owner);
-    out.put(order.region);
-    out.put(order.tile);
+    out.put_list(order.pieces);
 }
 
 RankOrder get_order(MessageReader& in) {
     RankOrder out;
     out.kind = in.get<RankOrder::Kind>();
-    out.piece = in.get<std::uint64_t>();
     out.owner = in.get<std::uint32_t>();
-    out.region = in.get<std::uint32_t>();
-    out.tile = in.get<std::uint32_t>();
+    out.pieces = in.get_list<RankPiece>();
+    return out;
+}
+
+// Most have found nothing.
+void put_result(MessageWriter& out, const RankResult& result) {
+    out.put(result.kind);
+    out.put(result.piece);
+    if (result.kind == RankResult::Kind::File) put_file(out, result.file);
+    out.put(result.slices);
+    out.put_text(result.records.empty()
+                     ? ""
+                     : result.records.dump(-1, ' ', false, Json::error_handler_t::replace));
+    out.put(std::uint64_t{result.parts.size()});
+    for (const ClashPart& part : result.parts) put_part(out, part);
+    out.put(result.code);
+    out.put_text(result.message);
+    out.put(result.pairs);
+    out.put(result.work);
+    out.put(result.seconds);
+    if (result.kind == RankResult::Kind::End) out.put(result.end);
+}
+
+RankResult get_result(MessageReader& in) {
+    RankResult out;
+    out.kind = in.get<RankResult::Kind>();
+    out.piece = in.get<std::uint64_t>();
+    if (out.kind == RankResult::Kind::File) out.file = get_file(in);
+    out.slices = in.get<std::uint32_t>();
+    const std::string records = in.get_text();
+    if (!records.empty()) out.records = Json::parse(records);
+    out.parts.resize(in.get<std::uint64_t>());
+    for (ClashPart& part : out.parts) part = get_part(in);
+    out.code = in.get<int>();
+    out.message = in.get_text();
+    out.pairs = in.get<std::uint64_t>();
+    out.work = in.get<std::uint64_t>();
+    out.seconds = in.get<double>();
+    if (out.kind == RankResult::Kind::End) out.end = in.get<RankEnd>();
     return out;
 }
 
@@ -126,11 +162,13 @@ RankOrder rank_order_of(const std::string& bytes) {
 std::string bytes_of(const RankTask& task) {
     MessageWriter out;
     put_order(out, task.order);
-    out.put(task.tile.cell);
-    out.put(std::uint64_t{task.tile.parts.size()});
-    for (const TilePart& p : task.tile.parts) {
-        out.put(p.box);
-        put_part(out, p.part);
+    out.put(std::uint64_t{task.fetched.parts.size()});
+    for (const ClashPart& part : task.fetched.parts) put_part(out, part);
+    out.put(std::uint64_t{task.fetched.tiles.size()});
+    for (const TileParts& tile : task.fetched.tiles) {
+        out.put(tile.cell);
+        out.put_list(tile.boxes);
+        out.put_list(tile.parts);
     }
     return out.take();
 }
@@ -139,55 +177,42 @@ RankTask rank_task_of(const std::string& bytes) {
     MessageReader in(bytes);
     RankTask out;
     out.order = get_order(in);
-    out.tile.cell = in.get<Bounds>();
-    out.tile.parts.resize(in.get<std::uint64_t>());
-    for (TilePart& p : out.tile.parts) {
-        p.box = in.get<ClashBox>();
-        p.part = get_part(in);
+    out.fetched.parts.resize(in.get<std::uint64_t>());
+    for (ClashPart& part : out.fetched.parts) part = get_part(in);
+    out.fetched.tiles.resize(in.get<std::uint64_t>());
+    for (TileParts& tile : out.fetched.tiles) {
+        tile.cell = in.get<Bounds>();
+        tile.boxes = in.get_list<ClashBox>();
+        tile.parts = in.get_list<std::uint32_t>();
     }
     return out;
 }
 
-std::string bytes_of(const RankResult& result) {
+TileParts RankTask::tile(std::size_t piece) const {
+    if (store == nullptr) return fetched.tiles.at(piece);
+    return store->tile(order.pieces.at(piece).region, order.pieces.at(piece).tile);
+}
+
+const ClashPart& RankTask::part(std::uint32_t number) const {
+    return store == nullptr ? fetched.parts.at(number) : store->part(number);
+}
+
+std::string bytes_of(const RankAnswer& answer) {
     MessageWriter out;
-    out.put(result.kind);
-    out.put(result.piece);
-    put_file(out, result.file);
-    out.put(result.slices);
-    out.put_text(result.records.empty()
-                     ? "[]"
-                     : result.records.dump(-1, ' ', false, Json::error_handler_t::replace));
-    out.put(std::uint64_t{result.parts.size()});
-    for (const ClashPart& part : result.parts) put_part(out, part);
-    out.put(result.code);
-    out.put_text(result.message);
-    out.put(result.pairs);
-    out.put(result.work);
-    out.put(result.seconds);
-    out.put(result.memory);
-    out.put(result.reads);
-    out.put(result.received);
+    out.put(answer.is_of_order);
+    out.put(std::uint64_t{answer.results.size()});
+    for (const RankResult& result : answer.results) put_result(out, result);
+    out.put_list(answer.left);
     return out.take();
 }
 
-RankResult rank_result_of(const std::string& bytes) {
+RankAnswer rank_answer_of(const std::string& bytes) {
     MessageReader in(bytes);
-    RankResult out;
-    out.kind = in.get<RankResult::Kind>();
-    out.piece = in.get<std::uint64_t>();
-    out.file = get_file(in);
-    out.slices = in.get<std::uint32_t>();
-    out.records = Json::parse(in.get_text());
-    out.parts.resize(in.get<std::uint64_t>());
-    for (ClashPart& part : out.parts) part = get_part(in);
-    out.code = in.get<int>();
-    out.message = in.get_text();
-    out.pairs = in.get<std::uint64_t>();
-    out.work = in.get<std::uint64_t>();
-    out.seconds = in.get<double>();
-    out.memory = in.get<std::uint64_t>();
-    out.reads = in.get<std::uint64_t>();
-    out.received = in.get<std::uint64_t>();
+    RankAnswer out;
+    out.is_of_order = in.get<bool>();
+    out.results.resize(in.get<std::uint64_t>());
+    for (RankResult& result : out.results) result = get_result(in);
+    out.left = in.get_list<RankPiece>();
     return out;
 }
 

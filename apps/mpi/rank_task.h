@@ -26,35 +26,59 @@ struct RankStart {
     std::vector<ClashSet> sets;
 };
 
-/// What to do next.
-struct RankOrder {
-    enum class Kind : std::uint8_t {
-        File,  ///< read a file, and say how large it is
-        Tile,  ///< a slice of the pairs of a tile
-        End    ///< nothing is left
-    };
-    Kind kind = Kind::End;
-    std::uint64_t piece = 0;   ///< the file; the tile and the slice
-    std::uint32_t owner = 0;   ///< the rank that has the parts of the tile
+/// A piece of work.
+struct RankPiece {
+    std::uint64_t number = 0;  ///< the file; the tile and the slice
     std::uint32_t region = 0;  ///< of the tile
     std::uint32_t tile = 0;    ///< in its region
 };
 
-/// A part of a tile; the number of its box is its place in the list.
-struct TilePart {
-    ClashBox box;
-    ClashPart part;
+/// What to do next, one piece after the other.
+struct RankOrder {
+    enum class Kind : std::uint8_t {
+        File,  ///< read files, and say how large they are
+        Tile,  ///< slices of the pairs of tiles
+        End    ///< nothing is left
+    };
+    Kind kind = Kind::End;
+    std::uint32_t owner = 0;  ///< the rank that has the parts of the tiles
+    std::vector<RankPiece> pieces;
 };
 
+/// The boxes of a tile, whose numbers are their places in the list, and the numbers of their parts.
 struct TileParts {
     Bounds cell;
-    std::vector<TilePart> parts;
+    std::vector<ClashBox> boxes;
+    std::vector<std::uint32_t> parts;
 };
+
+/// Tiles of another rank, with their parts, each once.
+struct FetchedTiles {
+    std::vector<ClashPart> parts;
+    std::vector<TileParts> tiles;  ///< of each piece of the order
+};
+
+class PartStore;
 
 /// An order with all that it needs.
 struct RankTask {
     RankOrder order;
-    TileParts tile;
+    FetchedTiles fetched;              ///< where the tiles are another rank's
+    const PartStore* store = nullptr;  ///< where they are its own
+
+    [[nodiscard]] TileParts tile(std::size_t piece) const;
+    [[nodiscard]] const ClashPart& part(std::uint32_t number) const;
+};
+
+/// What a rank needed in all.
+struct RankEnd {
+    double seconds = 0;          ///< of the processor
+    double idle = 0;             ///< seconds on the clock without work, from the first order of a
+                                 ///< tile to the last
+    std::uint64_t memory = 0;    ///< most bytes that it had
+    std::uint64_t reads = 0;     ///< files that were read, also again
+    std::uint64_t messages = 0;  ///< sent and received
+    std::uint64_t bytes = 0;     ///< of these
 };
 
 struct RankResult {
@@ -69,11 +93,16 @@ struct RankResult {
     std::string message;
     // Counted and timed.
     std::uint64_t pairs = 0;
-    std::uint64_t work = 0;      ///< units of a StopScope
-    double seconds = 0;          ///< of the processor; at the end: of all that the rank did
-    std::uint64_t memory = 0;    ///< at the end: most bytes that the rank had
-    std::uint64_t reads = 0;     ///< at the end: files that were read, also again
-    std::uint64_t received = 0;  ///< at the end: bytes
+    std::uint64_t work = 0;  ///< units of a StopScope
+    double seconds = 0;      ///< of the processor
+    RankEnd end;
+};
+
+/// What came of an order, or something else to say.
+struct RankAnswer {
+    bool is_of_order = false;
+    std::vector<RankResult> results;
+    std::vector<RankPiece> left;  ///< what was not begun, and is for whoever comes next
 };
 
 /// Numbers of pieces of work, as journals have them.
@@ -87,11 +116,11 @@ inline constexpr std::uint64_t first_file_piece = std::uint64_t{1} << 62;
 [[nodiscard]] std::string bytes_of(const RankStart& start);
 [[nodiscard]] std::string bytes_of(const RankOrder& order);
 [[nodiscard]] std::string bytes_of(const RankTask& task);
-[[nodiscard]] std::string bytes_of(const RankResult& result);
+[[nodiscard]] std::string bytes_of(const RankAnswer& answer);
 [[nodiscard]] RankStart rank_start_of(const std::string& bytes);
 [[nodiscard]] RankOrder rank_order_of(const std::string& bytes);
 [[nodiscard]] RankTask rank_task_of(const std::string& bytes);
-[[nodiscard]] RankResult rank_result_of(const std::string& bytes);
+[[nodiscard]] RankAnswer rank_answer_of(const std::string& bytes);
 
 void put_part(MessageWriter& out, const ClashPart& part);
 [[nodiscard]] ClashPart get_part(MessageReader& in);

@@ -4,6 +4,8 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <ctime>
 #include <string_view>
@@ -38,16 +40,39 @@ RankWorker::RankWorker(Session& session, const ClashOptions& options, std::uint6
       models_(session, options.operands, most_bytes),
       journal_(journal, start_.key, kept) {}
 
-RankResult RankWorker::done(const RankTask& task) {
+RankAnswer RankWorker::done(const RankTask& task) {
+    using Clock = std::chrono::steady_clock;
+    RankAnswer out;
+    out.is_of_order = true;
+    const auto begin = Clock::now();
+    tile_.reset();  // numbers of another task
+    const std::vector<RankPiece>& pieces = task.order.pieces;
+    try {
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            out.results.push_back(done(task, i));
+            if (out.results.back().kind == RankResult::Kind::Failure) break;
+            if (Clock::now() - begin < most_time) continue;
+            out.left.assign(pieces.begin() + static_cast<std::ptrdiff_t>(i) + 1, pieces.end());
+            break;
+        }
+    } catch (...) {
+        journal_.add(std::exchange(entries_, {}));
+        throw;
+    }
+    journal_.add(std::exchange(entries_, {}));
+    return out;
+}
+
+RankResult RankWorker::done(const RankTask& task, std::size_t at) {
     RankResult result;
-    result.piece = task.order.piece;
+    result.piece = task.order.pieces[at].number;
     const double begin = processor_seconds();
     const StopScope scope(session_.limits());
     try {
         if (task.order.kind == RankOrder::Kind::File)
-            read_file(task, result);
+            read_file(result.piece, result);
         else
-            answer_slice(task, result);
+            answer_slice(task, at, result);
     } catch (...) {
         const Failure failure = current_failure();
         if (failure.code == static_cast<int>(ErrorCode::Cancelled)) throw;
@@ -60,9 +85,8 @@ RankResult RankWorker::done(const RankTask& task) {
     return result;
 }
 
-RankResult RankWorker::ended() const {
-    RankResult out;
-    out.kind = RankResult::Kind::End;
+RankEnd RankWorker::ended() const {
+    RankEnd out;
     out.reads = models_.reads();
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
@@ -74,27 +98,25 @@ RankResult RankWorker::ended() const {
     return out;
 }
 
-void RankWorker::read_file(const RankTask& task, RankResult& result) {
+void RankWorker::read_file(std::uint64_t file, RankResult& result) {
     result.kind = RankResult::Kind::File;
     try {
-        result.file = models_.get(start_.files.at(task.order.piece)).file;
+        result.file = models_.get(start_.files.at(file)).file;
     } catch (const Error& e) {
         if (!is_left_out(e, options_)) throw;
         result.file.failure = e.what();
     }
-    journal_.add(first_file_piece + task.order.piece, file_json(result.file));
+    entries_ += ClashJournal::entry(first_file_piece + file, file_json(result.file));
 }
 
-void RankWorker::answer_slice(const RankTask& task, RankResult& result) {
+void RankWorker::answer_slice(const RankTask& task, std::size_t at, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
-    const std::uint64_t piece = task.order.piece;
-    if (tile_ != tile_of(piece)) find_candidates(task);
+    if (tile_ != tile_of(result.piece)) find_candidates(task, at);
     const std::size_t size = std::max(options_.volumes ? slice_volumes : slice_pairs,
                                       (pairs_.size() + most_slices - 1) / most_slices);
     const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
-    const std::size_t begin = std::min(slice_of(piece) * size, pairs_.size());
+    const std::size_t begin = std::min(slice_of(result.piece) * size, pairs_.size());
     const std::size_t n = std::min(size, pairs_.size() - begin);
-    result.records = Json::array();
     std::vector<std::vector<Json>> records(n);
     for_each_in_parallel(n, session_.limits(),
                          [&](std::size_t i) { records[i] = answers(task, pairs_[begin + i]); });
@@ -104,35 +126,45 @@ void RankWorker::answer_slice(const RankTask& task, RankResult& result) {
     }
     result.slices = static_cast<std::uint32_t>(slices);
     result.pairs = n;
-    Json entry{{"slices", slices}, {"found", result.records}};
+    add_entry(result);
+}
+
+// Most tiles have no clash, and are written without a document.
+void RankWorker::add_entry(const RankResult& result) {
+    if (result.records.empty()) {
+        entries_ += fmt::format("{{\"piece\":{},\"records\":{{\"found\":[],\"slices\":{}}}}}\n",
+                                result.piece, result.slices);
+        return;
+    }
+    Json entry{{"slices", result.slices}, {"found", result.records}};
     for (const ClashPart& part : result.parts) entry["parts"].push_back(part_json(part));
-    journal_.add(piece, entry);
+    entries_ += ClashJournal::entry(result.piece, entry);
 }
 
 // By files, so that a model is asked for again while it is here.
-void RankWorker::find_candidates(const RankTask& task) {
-    const std::vector<TilePart>& parts = task.tile.parts;
-    std::vector<ClashBox> boxes;
-    boxes.reserve(parts.size());
-    for (const TilePart& part : parts) boxes.push_back(part.box);
+void RankWorker::find_candidates(const RankTask& task, std::size_t at) {
     tile_.reset();
     pairs_.clear();
-    add_candidates(limits_, boxes, task.tile.cell, pairs_);
+    parts_ = task.tile(at);
+    add_candidates(limits_, parts_.boxes, parts_.cell, pairs_);
+    const auto part_of = [&](std::uint32_t box) -> const ClashPart& {
+        return task.part(parts_.parts[box]);
+    };
     for (ClashCandidate& pair : pairs_)
-        if (parts[pair.b].part.id < parts[pair.a].part.id) std::swap(pair.a, pair.b);
+        if (part_of(pair.b).id < part_of(pair.a).id) std::swap(pair.a, pair.b);
     const auto key = [&](const ClashCandidate& c) {
-        const ClashPart& a = parts[c.a].part;
-        const ClashPart& b = parts[c.b].part;
+        const ClashPart& a = part_of(c.a);
+        const ClashPart& b = part_of(c.b);
         return std::tuple(a.file, b.file, std::string_view(a.id), std::string_view(b.id));
     };
     std::ranges::sort(pairs_, {}, key);
-    tile_ = tile_of(task.order.piece);
+    tile_ = tile_of(task.order.pieces[at].number);
 }
 
 void RankWorker::add_parts(const RankTask& task, const ClashCandidate& pair,
                            RankResult& result) const {
-    for (const std::uint32_t n : {pair.a, pair.b}) {
-        const ClashPart& part = task.tile.parts[n].part;
+    for (const std::uint32_t box : {pair.a, pair.b}) {
+        const ClashPart& part = task.part(parts_.parts[box]);
         if (std::ranges::find(result.parts, part.id, &ClashPart::id) == result.parts.end())
             result.parts.push_back(part);
     }
@@ -146,11 +178,11 @@ std::vector<Json> RankWorker::answers(const RankTask& task, const ClashCandidate
                                : clash_records(start_.sets, a, b, questions);
 }
 
-PlacedPart RankWorker::placed(const RankTask& task, std::uint32_t number) {
-    const TilePart& from = task.tile.parts[number];
-    return {models_.get(start_.files[from.part.file]).model,
-            clash_pose(start_.manifest, from.part.id, from.part.pose), from.box.box, from.part.id,
-            from.part.group};
+PlacedPart RankWorker::placed(const RankTask& task, std::uint32_t box) {
+    const ClashPart& part = task.part(parts_.parts[box]);
+    return {models_.get(start_.files[part.file]).model,
+            clash_pose(start_.manifest, part.id, part.pose), parts_.boxes[box].box, part.id,
+            part.group};
 }
 
 }  // namespace trisect::app

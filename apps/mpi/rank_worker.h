@@ -3,8 +3,10 @@
 // RankWorker: the work of one rank.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "model_cache.h"
@@ -28,19 +30,25 @@ public:
     RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,
                const RankStart& start, const std::string& journal, const FinishedPieces& kept);
 
+    /// An order takes no longer than this, but for its first piece: what is left then is handed
+    /// back, so that nobody waits for it.
+    static constexpr std::chrono::milliseconds most_time{20};
+
     /// What fails is a result, too. \throw CancelledError
-    [[nodiscard]] RankResult done(const RankTask& task);
+    [[nodiscard]] RankAnswer done(const RankTask& task);
     /// What the rank needed.
-    [[nodiscard]] RankResult ended() const;
+    [[nodiscard]] RankEnd ended() const;
     void remove_journal() { journal_.remove(); }
 
 private:
-    void read_file(const RankTask& task, RankResult& result);
-    void answer_slice(const RankTask& task, RankResult& result);
-    void find_candidates(const RankTask& task);
+    [[nodiscard]] RankResult done(const RankTask& task, std::size_t at);
+    void read_file(std::uint64_t file, RankResult& result);
+    void answer_slice(const RankTask& task, std::size_t at, RankResult& result);
+    void find_candidates(const RankTask& task, std::size_t at);
+    void add_entry(const RankResult& result);
     void add_parts(const RankTask& task, const ClashCandidate& pair, RankResult& result) const;
     [[nodiscard]] std::vector<Json> answers(const RankTask& task, const ClashCandidate& pair);
-    [[nodiscard]] PlacedPart placed(const RankTask& task, std::uint32_t part);
+    [[nodiscard]] PlacedPart placed(const RankTask& task, std::uint32_t box);
 
     Session& session_;
     const ClashOptions& options_;
@@ -48,7 +56,9 @@ private:
     ClashLimits limits_;
     ModelCache models_;
     std::optional<std::uint64_t> tile_;  // of which the pairs are
+    TileParts parts_;                    // of an own one its numbers, of another's those of a task
     std::vector<ClashCandidate> pairs_;
+    std::string entries_;  // for the journal
     ClashJournal journal_;
 };
 

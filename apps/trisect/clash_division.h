@@ -4,9 +4,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -71,8 +69,7 @@ public:
     template <class Visit>
     void for_each_cell(const Bounds& box, double most, const Visit& found) const {
         Bounds grown = box;
-        for (double& hi : grown.hi)
-            hi = std::nextafter(hi + most, std::numeric_limits<double>::infinity());
+        for (double& hi : grown.hi) hi = next_above(hi + most);
         visit(0, grown, found);
     }
 

@@ -71,12 +71,14 @@ ClashJournal::~ClashJournal() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-void ClashJournal::add(std::uint64_t piece, const Json& records) {
-    append(line_of(piece_of(piece, records)));
+void ClashJournal::add(std::uint64_t piece, const Json& records) { add(entry(piece, records)); }
+
+std::string ClashJournal::entry(std::uint64_t piece, const Json& records) {
+    return line_of(piece_of(piece, records));
 }
 
-void ClashJournal::append(const std::string& line) {
-    write_descriptor(descriptor_, path_, line);
+void ClashJournal::add(const std::string& entries) {
+    write_descriptor(descriptor_, path_, entries);
     const auto now = std::chrono::steady_clock::now();
     if (now - flushed_ < std::chrono::seconds(1)) return;
     (void)::fdatasync(descriptor_);

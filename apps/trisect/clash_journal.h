@@ -31,12 +31,13 @@ public:
     ~ClashJournal();
 
     void add(std::uint64_t piece, const Json& records);
+    /// Several entries at once, as entry() makes them.
+    void add(const std::string& entries);
+    [[nodiscard]] static std::string entry(std::uint64_t piece, const Json& records);
     /// After the report was written.
     void remove();
 
 private:
-    void append(const std::string& line);
-
     std::string path_;
     int descriptor_ = -1;
     std::chrono::steady_clock::time_point flushed_ = std::chrono::steady_clock::now();

@@ -13,9 +13,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double below(double v) { return std::nextafter(v, -infinity); }
-double above(double v) { return std::nextafter(v, infinity); }
-
 // One coordinate of a box, a part of it, as the sweep needs them side by side.
 struct SweptBox {
     double lo = 0;
@@ -41,7 +38,7 @@ std::size_t sweep_axis(std::span<const ClashBox> boxes) {
 
 // Whether the sum of the first two, rounded upwards, is less: rarely is that near.
 bool is_less(double hi, double within, double lo) {
-    return hi + within < lo && above(hi + within) < lo;
+    return hi + within < lo && next_above(hi + within) < lo;
 }
 
 bool meet(const Bounds& a, const Bounds& b, double within) {
@@ -67,15 +64,15 @@ Bounds posed_box(const Bounds& box, const std::array<double, 12>& pose) {
         double hi = lo;
         double size = std::fabs(lo);
         for (std::size_t j = 0; j < 3; ++j) {
-            const double p = pose[4 * i + j] * below(box.lo[j]);
-            const double q = pose[4 * i + j] * above(box.hi[j]);
+            const double p = pose[4 * i + j] * next_below(box.lo[j]);
+            const double q = pose[4 * i + j] * next_above(box.hi[j]);
             lo += std::min(p, q);
             hi += std::max(p, q);
             size += std::max(std::fabs(p), std::fabs(q));
         }
         const double error = size * 0x1p-49;
-        out.lo[i] = below(lo - error);
-        out.hi[i] = above(hi + error);
+        out.lo[i] = next_below(lo - error);
+        out.hi[i] = next_above(hi + error);
     }
     return out;
 }
@@ -101,7 +98,8 @@ void add_candidates(const ClashLimits& limits, std::span<const ClashBox> boxes, 
     std::vector<SweptBox> swept;
     swept.reserve(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        swept.push_back({boxes[i].box.lo[axis], above(boxes[i].box.hi[axis] + limits.most()), i});
+        swept.push_back(
+            {boxes[i].box.lo[axis], next_above(boxes[i].box.hi[axis] + limits.most()), i});
     std::ranges::sort(swept, {}, [](const SweptBox& b) { return b.lo; });
     for (std::size_t i = 0; i < swept.size(); ++i)
         for (std::size_t j = i + 1; j < swept.size() && swept[j].lo <= swept[i].hi; ++j) {

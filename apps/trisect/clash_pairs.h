@@ -4,8 +4,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <compare>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,15 @@
 #include "clash_manifest.h"
 
 namespace trisect::app {
+
+/// The next double, as std::nextafter has it, without a call.
+[[nodiscard]] inline double next_above(double v) {
+    if (v == 0) return std::numeric_limits<double>::denorm_min();
+    if (!(v < std::numeric_limits<double>::infinity())) return v;
+    const auto bits = std::bit_cast<std::int64_t>(v);
+    return std::bit_cast<double>(v > 0 ? bits + 1 : bits - 1);
+}
+[[nodiscard]] inline double next_below(double v) { return -next_above(-v); }
 
 /// Contains what it is of, whatever was rounded.
 [[nodiscard]] Bounds posed_box(const Bounds& box, const std::array<double, 12>& pose);
