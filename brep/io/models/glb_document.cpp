@@ -86,6 +86,8 @@ void GlbDocument::parse(std::string_view text) {
     } catch (const nlohmann::json::parse_error& e) {
         const std::size_t offset = e.byte == 0 ? 0 : std::min(e.byte - 1, text.size());
         source_.fail(text.data() + offset, "the JSON is malformed");
+    } catch (const nlohmann::json::out_of_range&) {
+        source_.fail(text.data(), "a number of the JSON is larger than a double can be");
     }
     if (!json_.is_object()) source_.fail(text.data(), "the JSON is no object");
 }

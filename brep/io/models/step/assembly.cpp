@@ -85,6 +85,7 @@ public:
         for (StepFrame& f : frames_) {
             std::sort(f.shapes.begin(), f.shapes.end());
             f.shapes.erase(std::unique(f.shapes.begin(), f.shapes.end()), f.shapes.end());
+            leave_out_repeated(f);
         }
         return std::move(frames_);
     }
@@ -185,6 +186,27 @@ private:
         }
         if (frame.shapes.size() + frame.children.size() == before || part.values.size() < 3) return;
         if (part.values[2].kind == StepKind::Reference) frame.contexts.push_back(part.values[2].id);
+    }
+
+    /// Surface models of shells that B-reps in the same place have: some programs write both, for
+    /// readers that know only one.
+    void leave_out_repeated(StepFrame& frame) const {
+        std::set<std::uint64_t> of_solids;
+        std::map<std::uint64_t, std::vector<std::uint64_t>> of_models;
+        for (const std::uint64_t id : frame.shapes) {
+            check_stop();
+            StepShapes::Shells shells = shapes_.shells(text_.entity(id, text_.source().begin()));
+            if (shells.is_solid)
+                of_solids.insert(shells.ids.begin(), shells.ids.end());
+            else
+                of_models.emplace(id, std::move(shells.ids));
+        }
+        std::erase_if(frame.shapes, [&](std::uint64_t id) {
+            const auto at = of_models.find(id);
+            return at != of_models.end() && !at->second.empty() &&
+                   std::all_of(at->second.begin(), at->second.end(),
+                               [&](std::uint64_t shell) { return of_solids.contains(shell); });
+        });
     }
 
     /// MAPPED_ITEM(name, REPRESENTATION_MAP(origin, representation), target)

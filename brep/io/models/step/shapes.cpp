@@ -54,31 +54,35 @@ bool StepShapes::is_shape(std::string_view keyword) {
     return std::find(shape_keywords.begin(), shape_keywords.end(), keyword) != shape_keywords.end();
 }
 
-PolygonMesh StepShapes::read(const StepEntity& shape, double uncertainty) {
-    uncertainty_ = uncertainty;
-    mesh_ = PolygonMesh();
+StepShapes::Shells StepShapes::shells(const StepEntity& shape) const {
     // A complex entity has the values of each keyword apart; a simple one all, the name first.
     const bool is_complex = shape.parts.size() > 1;
     const std::size_t first = is_complex ? 0 : 1;
+    Shells out;
+    const auto add_list = [&](const StepPart& part, std::size_t index) {
+        const auto& list = text_.value(shape, part, index, StepKind::List).items;
+        require_different(text_, shape, list);
+        for (const StepValue& v : list) out.ids.push_back(text_.entity(v.id, v.at).id);
+    };
     const StepPart* solid = nullptr;
     for (const char* keyword : {"FACETED_BREP", "BREP_WITH_VOIDS", "MANIFOLD_SOLID_BREP"})
         if (const StepPart* p = shape.part(keyword)) solid = p;
-    if (solid != nullptr) {
-        add_shell(text_.referred(shape, *solid, first), true);
-        if (const StepPart* voids = shape.part("BREP_WITH_VOIDS")) {
-            const auto& list = text_.value(shape, *voids, is_complex ? 0 : 2, StepKind::List).items;
-            require_different(text_, shape, list);
-            for (const StepValue& v : list) add_shell(text_.entity(v.id, v.at), true);
-        }
-    } else {
-        for (const char* keyword : {"SHELL_BASED_SURFACE_MODEL", "FACE_BASED_SURFACE_MODEL"}) {
-            const StepPart* model = shape.part(keyword);
-            if (model == nullptr) continue;
-            const auto& list = text_.value(shape, *model, first, StepKind::List).items;
-            require_different(text_, shape, list);
-            for (const StepValue& v : list) add_shell(text_.entity(v.id, v.at), true);
-        }
+    out.is_solid = solid != nullptr;
+    if (out.is_solid) {
+        out.ids.push_back(text_.referred(shape, *solid, first).id);
+        if (const StepPart* voids = shape.part("BREP_WITH_VOIDS"))
+            add_list(*voids, is_complex ? 0 : 2);
+        return out;
     }
+    for (const char* keyword : {"SHELL_BASED_SURFACE_MODEL", "FACE_BASED_SURFACE_MODEL"})
+        if (const StepPart* model = shape.part(keyword)) add_list(*model, first);
+    return out;
+}
+
+PolygonMesh StepShapes::read(const StepEntity& shape, double uncertainty) {
+    uncertainty_ = uncertainty;
+    mesh_ = PolygonMesh();
+    for (const std::uint64_t id : shells(shape).ids) add_shell(text_.entity(id, shape.at), true);
     for (const std::uint32_t p : touched_) local_[p] = 0;
     touched_.clear();
     return std::move(mesh_);

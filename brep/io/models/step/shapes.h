@@ -28,6 +28,13 @@ public:
     /// Whether an entity of that keyword is a shape: a B-rep, or a model of shells.
     [[nodiscard]] static bool is_shape(std::string_view keyword);
 
+    struct Shells {
+        bool is_solid = false;
+        std::vector<std::uint64_t> ids;
+    };
+    /// The shells that a shape is made of.
+    [[nodiscard]] Shells shells(const StepEntity& shape) const;
+
     /// The mesh of a shape. Corners farther from the plane of their face than `uncertainty` are
     /// counted in the report.
     /// \throw InputError, UnsupportedError with entity and line; LimitError

@@ -127,6 +127,7 @@ TEST(Glb, ErrorsHavePlaces) {
     refused(bytes + "    ", "8", "the header states");
     refused(glb_file("{\"a\":}"), "25", "malformed");
     refused(glb_file("[]"), "20", "no object");
+    refused(glb_file(R"({"a":1e525})"), "20", "larger than a double");
     const auto spoiled = [&](const std::string& what, const std::string& by) {
         std::string out = bytes;
         out.replace(out.find(what), what.size(), by);

@@ -174,6 +174,20 @@ TEST(Step, Assemblies) {
                                "test:", "parallel axes");
 }
 
+TEST(Step, ASurfaceModelOfAShellOfABrepIsNotAnotherPart) {
+    const std::string all = tetrahedron_entities() + tetrahedron_representation();
+    const std::string also =
+        "#80=SHELL_BASED_SURFACE_MODEL('',(#50));\n"
+        "#81=MANIFOLD_SURFACE_SHAPE_REPRESENTATION('',(#80),#66);\n";
+    const std::string tied = "#82=SHAPE_REPRESENTATION_RELATIONSHIP('','',#70,#81);\n";
+    EXPECT_EQ(step_model(all + also + tied).parts.size(), 1U);
+    // Elsewhere, or of another shell, it is one.
+    EXPECT_EQ(step_model(all + also).parts.size(), 2U);
+    const std::string open = "#51=OPEN_SHELL('',(#40,#41));\n";
+    EXPECT_EQ(step_model(all + open + with_replaced(also, "(#50)", "(#51)") + tied).parts.size(),
+              2U);
+}
+
 TEST(Step, MappedItems) {
     const std::string text = whole_tetrahedron() +
                              "#80=REPRESENTATION_MAP(#14,#70);\n#81=MAPPED_ITEM('',#80,#14);\n"
