@@ -12,9 +12,9 @@
 //
 // Leniencies: comments from `#` before a word or after a number and blank lines anywhere; the
 // number of edges may be missing; numbers after the indices of a face (its colour) are ignored, as
-// is a vertex's normal, colour or texture position. Each vertex and each face stands on its own
-// line. Refused: the four-dimensional (4OFF, nOFF) and the binary variant, anything after the last
-// face.
+// is a vertex's normal, colour or texture position. Each vertex stands on its own line, and each
+// face begins one. Refused: the four-dimensional (4OFF, nOFF) and the binary variant, anything
+// after the last face.
 #include <trisect/brep/io/formats/formats.h>
 #include <trisect/brep/io/formats/mesh_builder.h>
 #include <trisect/brep/io/formats/number_text.h>
@@ -156,11 +156,20 @@ private:
         mesh_.add_point(p, at);
     }
 
+    // Some programs break lines within a face. What one takes from the next is missed there, so
+    // none is lost in silence.
+    void next_index() {
+        if (!text_.at_line_end()) return;
+        const char* at = text_.here();
+        if (!text_.seek_word()) source_.fail(at, "the line ends where a vertex index is expected");
+    }
+
     void face(std::uint64_t i) {
         item("face", i, faces_);
         const char* at = text_.here();
         const std::uint64_t n = text_.count("the number of corners of a face");
         for (std::uint64_t k = 0; k < n; ++k) {
+            next_index();
             const std::uint64_t index = text_.count("a vertex index");
             mesh_.add_corner(index, text_.last_number());
         }

@@ -71,6 +71,16 @@ TEST(Off, CountsAreHints) {
     expect_off_error("OFF\n3 2 0\n" + points + "3 0 1 2           \n", ":7:1", "face 2 of 2");
 }
 
+TEST(Off, FacesOfSeveralLines) {
+    const std::string two = "OFF\n3 2 0\n" + points;
+    EXPECT_EQ(loops(off(two + "3 0\n1 # one\n\n2\n3 2\n1 0 255 0 0\n")),
+              (Loops{{0, 1, 2}, {2, 1, 0}}));
+    // Lines with too few or too many indices are not taken for others.
+    expect_off_error(two + "3 0 1\n3 2 1 0\n", ":8:1", "face 2 of 2");
+    expect_off_error(two + "3 0 1\n2 1 2 0\n", ":8:1", "face 2 of 2");
+    expect_off_error(two + "3 0 1 2\n3 0 1\n", ":7:6", "ends where");
+}
+
 TEST(Off, BadBodies) {
     expect_off_error("OFF\n3 1 0\n" + points + "3 0 1 3\n", ":6:7", "vertex 3 (counted from 0)");
     expect_off_error("OFF\n3 1 0\n" + points + "3 0 1 -1\n", ":6:7", "negative");
