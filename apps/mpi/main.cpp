@@ -60,7 +60,6 @@ void look_for_no_network() {
     const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
     if (all == nullptr || here == nullptr || std::string_view(all) != here) return;
     ::setenv("OMPI_MCA_pml", "ob1", 0);
-    ::setenv("OMPI_MCA_btl", "self,vader,tcp", 0);
 }
 
 // A Supervisor fetches these. MPI has threads, too, which would let them end the process.
