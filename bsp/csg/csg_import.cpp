@@ -34,7 +34,12 @@ PolygonMesh csg_import(const CsgArguments& arguments, const std::filesystem::pat
         arguments.fail(
             ErrorCode::Unsupported,
             "files of the kind '" + csg_extension(file).substr(0, 20) + "' are not read");
+#ifdef TRISECT_WITHOUT_FILES
+    // Readers would be a tenth of such a module.
+    arguments.fail(ErrorCode::Unsupported, "this build reads no files");
+#else
     return read_mesh(file);
+#endif
 }
 
 }  // namespace trisect::detail

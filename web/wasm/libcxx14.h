@@ -226,6 +226,7 @@ TRISECT_ORDERING(min_element, less)
 TRISECT_ORDERING(minmax_element, less)
 TRISECT_ORDERING(push_heap, less)
 TRISECT_ORDERING(pop_heap, less)
+TRISECT_ORDERING(is_sorted, less)
 TRISECT_ORDERING(adjacent_find, equal_to)
 TRISECT_TEST(all_of)
 TRISECT_TEST(any_of)
@@ -288,6 +289,11 @@ template <range R, class O>
 constexpr auto copy(R&& r, O to) {
     return in_out_result<iterator_t<R>, O>{ranges::end(r),
                                            std::copy(ranges::begin(r), ranges::end(r), to)};
+}
+template <range R, class O>
+constexpr auto move(R&& r, O to) {
+    return in_out_result<iterator_t<R>, O>{ranges::end(r),
+                                           std::move(ranges::begin(r), ranges::end(r), to)};
 }
 template <range R, class O, class F, class P = identity>
 constexpr auto copy_if(R&& r, O to, F f, P p = {}) {
