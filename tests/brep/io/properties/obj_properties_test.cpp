@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // OBJ with materials and properties of corners: what is read, what is written, what is refused.
+#include "support/mesh_files.h"
+
 #include <trisect/brep/io/read_model.h>
 #include <trisect/brep/io/write_model.h>
 #include <trisect/kernel/error.h>
@@ -40,15 +42,9 @@ const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
 /// A folder that is gone afterwards.
 struct Folder {
-    std::filesystem::path path =
-        std::filesystem::path(::testing::TempDir()) / "obj_properties_test";
-    Folder() {
-        std::filesystem::remove_all(path);
-        std::filesystem::create_directories(path / "below");
-    }
-    ~Folder() { std::filesystem::remove_all(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
+    trisect::io_test::TemporaryFolder own;  // tests run at the same time
+    std::filesystem::path path = own.path();
+    Folder() { std::filesystem::create_directories(path / "below"); }
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(path / name, std::ios::binary) << text;
     }
