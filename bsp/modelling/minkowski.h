@@ -40,10 +40,10 @@ struct MinkowskiOptions {
 [[nodiscard]] Solid minkowski_difference(const Solid& a, const Solid& b,
                                          const MinkowskiOptions& options = {});
 
-/// The sum of regions of the plane, as prisms between z = 0 and z = 1: what the convolution of their
-/// outlines goes around, or, of a region with holes, of the outlines of its triangles. Sums of
-/// corners are rounded, once each, and so are corners that are no doubles before.
-/// \throw LimitError beyond so many pairs of outlines as pieces are allowed
+/// The sum of regions of the plane, as prisms between z = 0 and z = 1: what the convolution of
+/// their outlines goes around, or, of a region with holes, of the outlines of its triangles. Sums
+/// of corners are rounded, once each, and so are corners that are no doubles before. \throw
+/// LimitError beyond so many pairs of outlines as pieces are allowed
 [[nodiscard]] Solid minkowski_sum_of_regions(const Solid& a, const Solid& b,
                                              const MinkowskiOptions& options = {});
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/measure.h>
-#include <trisect/brep/primitives/point_2d.h>
 #include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/point_2d.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/flat_prism.h>
