@@ -47,6 +47,7 @@ void VertexBoxes::build(std::span<Vertex> vertices) {
     }
     // A float is off by 2^-24 of itself, the difference in doubles by 2^-53 of the coordinates.
     rounding_ = 0x1p-23 * extent + 0x1p-51 * largest;
+    scale_ = extent > 0 ? std::ldexp(1.0, -std::ilogb(extent)) : 1;
     const auto count = static_cast<std::uint32_t>(vertices.size());
     nodes_.reserve(2 + count / few);
     static_cast<void>(add(0, count));
@@ -89,11 +90,12 @@ void VertexBoxes::set_box(Node& node, std::uint32_t child, std::uint32_t begin,
                           std::uint32_t end) const {
     const auto [lo, hi] = box_of_vertices(vertices_.subspan(begin, end - begin));
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto middle = static_cast<float>((lo[k] + (hi[k] - lo[k]) / 2) - origin_[k]);
-        const double at = origin_[k] + static_cast<double>(middle);
+        const auto middle =
+            static_cast<float>(((lo[k] + (hi[k] - lo[k]) / 2) - origin_[k]) * scale_);
+        const double at = origin_[k] + static_cast<double>(middle) / scale_;
         node.middle[k][child] = middle;
         node.half[k][child] =
-            static_cast<float>((std::max(hi[k] - at, at - lo[k]) + rounding_) * 1.000001);
+            static_cast<float>((std::max(hi[k] - at, at - lo[k]) + rounding_) * scale_ * 1.000001);
     }
 }
 
@@ -117,13 +119,14 @@ VertexBoxes::Edge VertexBoxes::single_precision(const std::array<double, 3>& fro
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const double along = to[k] - from[k];
-        out.along[k] = static_cast<float>(along);
-        out.middle[k] = static_cast<float>((from[k] + along / 2) - origin_[k]);
+        out.along[k] = static_cast<float>(along * scale_);
+        out.middle[k] = static_cast<float>(((from[k] + along / 2) - origin_[k]) * scale_);
         out.half[k] =
-            static_cast<float>((std::fabs(along) / 2 + within + 2 * rounding_) * 1.000001);
+            static_cast<float>((std::fabs(along) / 2 + within + 2 * rounding_) * scale_ * 1.000001);
         longest = std::max(longest, std::fabs(along));
     }
-    out.reach = static_cast<float>(2 * longest * (within + 2 * rounding_) * 1.000001);
+    out.reach =
+        static_cast<float>(2 * (longest * scale_) * ((within + 2 * rounding_) * scale_) * 1.000001);
     return out;
 }
 

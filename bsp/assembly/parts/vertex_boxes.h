@@ -53,7 +53,9 @@ public:
 
 private:
     static constexpr std::size_t width = 8;
-    using Row = std::array<float, width>;  // one number of each child
+    // One number of each child, times scale_: products of single precision would be too small for
+    // solids that are far smaller than a unit.
+    using Row = std::array<float, width>;
     struct Node {
         std::array<Row, 3> middle{};  // from origin_
         std::array<Row, 3> half{};
@@ -80,6 +82,7 @@ private:
     std::vector<Node> nodes_;
     std::array<double, 3> origin_{};
     double rounding_ = 0;  // of a coordinate, to single precision
+    double scale_ = 1;     // a power of two, so that all vertices are within one or two
 };
 
 }  // namespace trisect::detail

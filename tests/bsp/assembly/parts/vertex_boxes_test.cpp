@@ -19,10 +19,13 @@ namespace {
 using trisect::detail::VertexBoxes;
 using Point = std::array<double, 3>;
 
+// The size of a grid: solids may be far smaller or larger than the unit of their lattice.
+class VertexBoxesOfSize : public testing::TestWithParam<double> {};
+
 // Points of a small grid, so that many lie on the edge.
-TEST(VertexBoxes, FindAllVerticesOnAnEdgeAndFewOthers) {
+TEST_P(VertexBoxesOfSize, FindAllVerticesOnAnEdgeAndFewOthers) {
     std::mt19937 random(3);
-    const auto at = [&] { return static_cast<double>(random() % 9); };
+    const auto at = [&] { return GetParam() * static_cast<double>(random() % 9); };
     std::size_t seen = 0;
     std::size_t tried = 0;
     for (int round = 0; round < 200; ++round) {
@@ -33,10 +36,12 @@ TEST(VertexBoxes, FindAllVerticesOnAnEdgeAndFewOthers) {
         const Point from{at(), at(), at()};
         const Point to{at(), at(), at()};
         std::vector<bool> found(vertices.size());
-        boxes.for_each_near(from, to, 1e-9, [&](std::span<const VertexBoxes::Vertex> part) {
-            for (const auto& v : part) found[static_cast<std::size_t>(v.point)] = true;
-            seen += part.size();
-        });
+        boxes.for_each_near(from, to, 1e-9 * GetParam(),
+                            [&](std::span<const VertexBoxes::Vertex> part) {
+                                for (const auto& v : part)
+                                    found[static_cast<std::size_t>(v.point)] = true;
+                                seen += part.size();
+                            });
         tried += vertices.size();
         for (const auto& v : vertices) {
             double cross = 0;
@@ -59,6 +64,8 @@ TEST(VertexBoxes, FindAllVerticesOnAnEdgeAndFewOthers) {
     }
     EXPECT_LT(seen, tried / 5);
 }
+
+INSTANTIATE_TEST_SUITE_P(Sizes, VertexBoxesOfSize, testing::Values(1, 0x1p-70, 0x1p58));
 
 // Rings of many vertices in planes far from the origin: an edge from one to the next one meets few
 // others.
