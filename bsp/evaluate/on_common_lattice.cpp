@@ -403,8 +403,9 @@ std::shared_ptr<const SolidState> coarser(const std::shared_ptr<const SolidState
         const bool unbounded = state->far_out == 1;
         auto bounded = std::make_shared<SolidState>(*state);
         if (unbounded) {
-            CellRef& root = std::get<CellTree>(bounded->form).root;
-            root.complemented = !root.complemented;
+            auto& tree = std::get<CellTree>(bounded->form);
+            tree.root.complemented = !tree.root.complemented;
+            tree.crossings = nullptr;  // of the set, not of its complement
             bounded->far_out = 0;
         }
         const Brep brep = solid_of(std::move(bounded)).to_brep();

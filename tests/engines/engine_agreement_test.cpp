@@ -61,6 +61,40 @@ TEST(EngineAgreement, SolidsFarSmallerThanTheUnit) {
               "");
 }
 
+// A result that meets a coarser lattice goes there by its boundary. Where it touches itself in a
+// vertex that had one for each part, and facets that were cut and facets that were not had
+// different ones; of a complement the boundary was that of crossings of the set.
+TEST(EngineAgreement, ResultsThatMoveToACoarserLattice) {
+    for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+        reference::Random random(seed);
+        const auto operands = reference::random_family(random, 3, seed % 2 == 0);
+        const auto embedding =
+            seed % 2 == 0 ? trisect::Embedding::Assume : trisect::Embedding::Resolve;
+        const auto leaf = [](std::size_t i) { return reference::Expression::leaf(i); };
+        const auto not_b = reference::Expression::node(Kind::Complement, {leaf(1)});
+        for (const auto& before : {reference::Expression::node(Kind::Union, {leaf(0), not_b}),
+                                   reference::Expression::node(Kind::Xor, {leaf(0), leaf(1)})}) {
+            const std::vector<trisect::Solid> fine{engines::solid(operands[0], embedding, 2),
+                                                   engines::solid(operands[1], embedding, 2)};
+            const std::vector<trisect::Solid> both{
+                trisect::evaluate(engines::formula(before, fine)),
+                engines::solid(operands[2], embedding, 70)};
+            for (const Kind kind : {Kind::Union, Kind::Intersection}) {
+                const trisect::Solid result =
+                    trisect::evaluate(engines::formula(reference::pair_expression(kind), both));
+                const auto expression = reference::Expression::node(kind, {before, leaf(2)});
+                EXPECT_EQ(engines::open_edge(engines::boundary_mesh(result)), "")
+                    << "seed " << seed;
+                const auto expected = reference::evaluate(operands, expression);
+                EXPECT_EQ(engines::difference(result.to_brep(),
+                                              reference::canonical_boundary(expected.cells)),
+                          "")
+                    << "seed " << seed << " " << reference::to_string(expression);
+            }
+        }
+    }
+}
+
 // Three triangles in one place between two tetrahedra, the first one the other way round than the
 // result is: it speaks for all, and its neighbours are not only those that are left.
 TEST(EngineAgreement, SheetsFoldedBackOntoThemselves) {
