@@ -22,6 +22,7 @@
 #include <trisect/bsp/cells/packed_box.h>
 #include <trisect/bsp/cells/trace/axis_trace.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/divide/cell_task.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/stack_arena.h>
 #include <trisect/kernel/support/task_group.h>
