@@ -14,10 +14,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/import/weld_points.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -46,32 +46,6 @@ bool is_on_the_lattice(const Brep& brep) {
     return true;
 }
 
-// One point for equal ones, in the order of the first of each; the numbers of all are returned.
-std::vector<std::uint32_t> join_equal(std::vector<LatticePoint>& points) {
-    std::vector<std::uint32_t> order(points.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return points[i] != points[j] ? points[i] < points[j] : i < j;
-    });
-    std::vector<std::uint32_t> first(points.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool is_new = i == 0 || points[order[i]] != points[order[i - 1]];
-        first[order[i]] = is_new ? order[i] : first[order[i - 1]];
-    }
-    std::uint32_t count = 0;
-    std::vector<std::uint32_t> number(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (first[i] == i) {
-            points[count] = points[i];
-            number[i] = count++;
-        } else {
-            number[i] = number[first[i]];
-        }
-    }
-    points.resize(count);
-    return number;
-}
-
 // Where solids touch in a vertex or an edge a B-rep has one for each of them. A source has one
 // point for equal corners, so that facets that are cut there and facets that are not stay
 // neighbours.
@@ -79,10 +53,11 @@ LatticeMesh triangles_of(const Brep& brep) {
     LatticeMesh mesh;
     mesh.lattice = brep.lattice();
     for (const Point& p : brep.points()) mesh.points.push_back(p.lattice());
-    const std::vector<std::uint32_t> number = join_equal(mesh.points);
+    const auto id = detail::weld_in_place(mesh.points, mesh.points.size());
+    const auto welded = [&](std::uint32_t v) { return id.empty() ? v : id[v]; };
     for (const FaceId f : brep.faces())
         for (const IndexTriangle& t : triangulate(brep, f)) {
-            mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+            mesh.triangles.push_back({welded(t[0]), welded(t[1]), welded(t[2])});
             mesh.face_of_triangle.push_back(f.index);
         }
     return mesh;
