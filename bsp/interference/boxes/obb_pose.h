@@ -189,8 +189,7 @@ void ObbPose::offer_products(const Lanes& l, Float4 margin, Gap& best) const {
     }
 }
 
-// The same along the line of centres, the best direction for boxes far apart.
-// Along a vector of any length that is not 0.
+// The same along a vector of any length that is not 0.
 inline void ObbPose::offer_direction(const Lanes& l, const std::array<Float4, 3>& n, Float4 margin,
                                      Most& best) const {
     const auto& r = l.r;
@@ -234,7 +233,7 @@ unsigned ObbPose::may_meet(const Lanes& l) const {
     return ~(apart | bits_of(products.gap() > all_lanes(0))) & 15U;
 }
 
-// Products where the normals do not part all lanes, or always.
+// Products where the normals do not part all lanes.
 template <class Gap>
 void ObbPose::offer_axes(const Lanes& l, Float4 margin, Gap& best) const {
     if (rigid_)
@@ -250,7 +249,7 @@ inline Float4 ObbPose::gap(const Lanes& l, bool by_closest) const {
     offer_axes(l, margin, best);
     if (by_closest)
         offer_closest(l, margin, best);
-    else
+    else  // the line of centres, the best direction for boxes far apart
         offer_direction(l, l.t, margin, best);
     return larger(best.gap(), all_lanes(0)) * all_lanes(1 - 0x1p-18F);
 }
