@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The winding number at a corner is counted along a ray in direction +x that starts there, moved by
-// an infinitesimal (0, e, e²), so that it passes no corner or edge. A corner that lies on another
-// shell says nothing about that shell; then the next corner is tried.
+// The winding number is counted along a ray that starts in the interior of a facet of the shell, so
+// that other shells may touch its corners and edges: at a corner p of the facet, moved by
+// infinitesimals e to the next corner and e² to the last one. The ray runs along an axis along
+// which the facet is not seen edge-on; then its start, seen along the axis, is on no line through
+// corners, and it passes no corner or edge. A turn that is 0 at p is decided by the next corner or
+// the last one, and so is the side of a plane through p. Where all three are in the plane, the
+// start may lie on the other facet; then the next facet of the shell is tried.
 
 #include <trisect/brep/validate/shell_nesting.h>
 
 #include <algorithm>
+#include <cstddef>
 
 #include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/plane.h>
@@ -15,85 +20,98 @@
 
 namespace trisect::detail {
 
+// From the interior of a facet, near its first corner.
+struct ShellNesting::Ray {
+    const std::array<LatticePoint, 3>& from;
+    int axis = 0;
+    bool is_upwards = true;
+    double length = -1;  // to the end of the mesh; below 0 where there is no ray
+
+    [[nodiscard]] FlatCorner flat(const LatticePoint& p) const {
+        return flat_corner(p, (axis + 1) % 3, (axis + 2) % 3);
+    }
+    // Sign of the turn from a to b to the start of the ray; 0 where a and b are one point, seen
+    // along the axis.
+    [[nodiscard]] int turn_to_start(const LatticePoint& a, const LatticePoint& b) const {
+        for (const LatticePoint& p : from)
+            if (const int sign = turn(flat(a), flat(b), flat(p)); sign != 0) return sign;
+        return 0;
+    }
+    // On where the facet lies in the plane.
+    [[nodiscard]] Side side_of_start(const Plane& plane) const {
+        for (const LatticePoint& p : from)
+            if (const Side side = side_of(p, plane); side != Side::On) return side;
+        return Side::On;
+    }
+    // What the ray adds to the winding number at its start: 1 where it leaves through t, -1 where
+    // it enters. Nothing where it starts on t.
+    [[nodiscard]] std::optional<int> crossing(const std::array<LatticePoint, 3>& t) const {
+        const int s = turn_to_start(t[0], t[1]);
+        if (s == 0 || turn_to_start(t[1], t[2]) != s || turn_to_start(t[2], t[0]) != s) return 0;
+        const Side side = side_of_start(Plane::through(t[0], t[1], t[2]));
+        if (side == Side::On) return std::nullopt;
+        // Counter-clockwise: the normal points upwards.
+        const bool leaves = (s > 0) == is_upwards;
+        if (leaves) return side == Side::Below ? 1 : 0;
+        return side == Side::Above ? -1 : 0;
+    }
+};
+
 namespace {
 
-// Corners on other shells are tried in turn, up to so many.
-constexpr std::size_t corner_limit = 64;
-
-// Sign of the turn a, b, p + (e, e²) in the (y, z) plane; never 0 for different a and b.
-int perturbed_turn(const LatticePoint& a, const LatticePoint& b, const LatticePoint& p) {
-    const int exact = turn(flat_corner(a, 1, 2), flat_corner(b, 1, 2), flat_corner(p, 1, 2));
-    if (exact != 0) return exact;
-    if (b.z != a.z) return b.z > a.z ? -1 : 1;
-    return b.y > a.y ? 1 : -1;
-}
-
-// What the ray from p adds to the winding number at p: 1 where it leaves through t, -1 where it
-// enters. \pre p is not on t.
-int crossing(const LatticePoint& p, const std::array<LatticePoint, 3>& t) {
-    // An edge parallel to the ray is a point in the projection: the triangle is seen edge-on.
-    for (std::size_t i = 0; i < 3; ++i)
-        if (t[i].y == t[(i + 1) % 3].y && t[i].z == t[(i + 1) % 3].z) return 0;
-    const int s = perturbed_turn(t[0], t[1], p);
-    if (perturbed_turn(t[1], t[2], p) != s || perturbed_turn(t[2], t[0], p) != s) return 0;
-    // Counter-clockwise in (y, z): the normal has positive x, and the ray leaves through it if p
-    // is below. On the plane, p is beside the triangle, and the perturbed ray cannot meet it.
-    const Side side = side_of(p, Plane::through(t[0], t[1], t[2]));
-    if (s > 0) return side == Side::Below ? 1 : 0;
-    return side == Side::Above ? -1 : 0;
-}
-
-// Whether p lies on the closed triangle.
-bool lies_on(const LatticePoint& p, const std::array<LatticePoint, 3>& t) {
-    for (int i = 0; i < 3; ++i)
-        if (p[i] < std::min({t[0][i], t[1][i], t[2][i]}) ||
-            p[i] > std::max({t[0][i], t[1][i], t[2][i]}))
-            return false;
-    const Plane plane = Plane::through(t[0], t[1], t[2]);
-    if (side_of(p, plane) != Side::On) return false;
-    const int u = (plane.dominant_axis() + 1) % 3;
-    const int v = (plane.dominant_axis() + 2) % 3;
-    bool left = false;
-    bool right = false;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const int side =
-            turn(flat_corner(t[i], u, v), flat_corner(t[(i + 1) % 3], u, v), flat_corner(p, u, v));
-        left = left || side > 0;
-        right = right || side < 0;
-    }
-    return !(left && right);
-}
+// Facets that others cover are tried in turn, up to so many.
+constexpr std::size_t facet_limit = 64;
 
 }  // namespace
 
 std::optional<int> ShellNesting::winding_outside(std::uint32_t shell,
                                                  std::span<const Triangle> own) {
-    std::size_t tried = 0;
-    for (const Triangle& t : own)
-        for (const std::uint32_t c : t) {
-            if (++tried > corner_limit) return std::nullopt;
-            if (const auto w = winding_at(points_[c], shell)) return w;
-        }
+    for (const Triangle& t : own.first(std::min(own.size(), facet_limit))) {
+        const std::array<LatticePoint, 3> corners{points_[t[0]], points_[t[1]], points_[t[2]]};
+        const Ray ray = shortest_way_out(corners);
+        if (ray.length < 0) continue;
+        if (const auto w = winding_along(ray, shell)) return w;
+    }
     return std::nullopt;
 }
 
-std::optional<int> ShellNesting::winding_at(const LatticePoint& p, std::uint32_t without) {
-    LatticeBox ray;
-    ray.add(p);
-    ray.high.x = coordinate_limit;
+// Shells in a row see few others across it.
+ShellNesting::Ray ShellNesting::shortest_way_out(const std::array<LatticePoint, 3>& own) const {
+    Ray best{own};
+    for (const int axis : {0, 1, 2}) {
+        Ray ray{own, axis};
+        if (turn(ray.flat(own[0]), ray.flat(own[1]), ray.flat(own[2])) == 0) continue;
+        const double at = own[0][axis].to_double();
+        const double below = at - all_.low[axis].to_double();
+        const double above = all_.high[axis].to_double() - at;
+        ray.is_upwards = above <= below;
+        ray.length = std::min(above, below);
+        if (best.length < 0 || ray.length < best.length) {
+            best.axis = ray.axis;
+            best.is_upwards = ray.is_upwards;
+            best.length = ray.length;
+        }
+    }
+    return best;
+}
+
+std::optional<int> ShellNesting::winding_along(const Ray& ray, std::uint32_t without) {
+    LatticeBox way;
+    way.add(ray.from[0]);
+    const auto end = ray.is_upwards ? all_.high[ray.axis] : all_.low[ray.axis];
+    const LatticePoint& p = ray.from[0];
+    const auto at = [&](int axis) { return axis == ray.axis ? end : p[axis]; };
+    way.add(LatticePoint{at(0), at(1), at(2)});
     int winding = 0;
     bool known = true;
-    tree_.for_each_in(ray, [&](std::uint32_t t) {
+    tree_.for_each_in(way, [&](std::uint32_t t) {
         const std::uint32_t shell = shell_of_triangle_[t];
         if (shell == without || !is_closed_[shell]) return;
         const Triangle& corners = triangles_[t];
-        const std::array<LatticePoint, 3> q{points_[corners[0]], points_[corners[1]],
-                                            points_[corners[2]]};
-        if (lies_on(p, q)) {
-            known = false;
-        } else {
-            winding += crossing(p, q);
-        }
+        const auto crossing =
+            ray.crossing({points_[corners[0]], points_[corners[1]], points_[corners[2]]});
+        known = known && crossing.has_value();
+        winding += crossing.value_or(0);
     });
     return known ? std::optional(winding) : std::nullopt;
 }

@@ -27,21 +27,27 @@ public:
           triangles_(triangles),
           shell_of_triangle_(shell_of_triangle),
           is_closed_(is_closed),
-          tree_(tree) {}
+          tree_(tree) {
+        for (const LatticePoint& p : points) all_.add(p);
+    }
 
     /// Just outside the shell that consists of `own`, the winding number of all other shells.
-    /// Nothing if that could not be found: many corners lie on other shells.
+    /// Nothing if that could not be found: other shells cover many of its facets. O(log n), and the
+    /// facets along the shortest way out of the mesh along an axis.
     [[nodiscard]] std::optional<int> winding_outside(std::uint32_t shell,
                                                      std::span<const Triangle> own);
 
 private:
-    [[nodiscard]] std::optional<int> winding_at(const LatticePoint& p, std::uint32_t without);
+    struct Ray;
+    [[nodiscard]] Ray shortest_way_out(const std::array<LatticePoint, 3>& own) const;
+    [[nodiscard]] std::optional<int> winding_along(const Ray& ray, std::uint32_t without);
 
     std::span<const LatticePoint> points_;
     std::span<const Triangle> triangles_;
     std::span<const std::uint32_t> shell_of_triangle_;
     const std::vector<bool>& is_closed_;
     TriangleTree& tree_;
+    LatticeBox all_;
 };
 
 }  // namespace trisect::detail

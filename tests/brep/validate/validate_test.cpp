@@ -193,6 +193,20 @@ TEST(Validate, CavityThatTouchesTheOutsideInACornerIsASolid) {
     EXPECT_TRUE(r.is_solid()) << r.to_string();
 }
 
+TEST(Validate, ShellAmongOthersThatTouchAllOfItsCorners) {
+    for (const bool is_flipped : {false, true}) {
+        const PolygonMesh middle = cuboid({1, 1, 1}, {2, 2, 2});
+        PolygonMesh all = is_flipped ? test::flipped(middle) : middle;
+        for (const double x : {0.0, 2.0})
+            for (const double y : {0.0, 2.0})
+                for (const double z : {0.0, 2.0})
+                    all = together(all, cuboid({x, y, z}, {x + 1, y + 1, z + 1}));
+        const auto r = validate(all);
+        EXPECT_EQ(r.count(DefectKind::InsideOutShell), is_flipped ? 1U : 0U) << r.to_string();
+        EXPECT_EQ(r.count(DefectKind::ShellNesting), 0U) << r.to_string();
+    }
+}
+
 TEST(Validate, ListIsLimitedCountsAreNot) {
     PolygonMesh m;
     for (int i = 0; i < 50; ++i)
