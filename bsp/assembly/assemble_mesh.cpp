@@ -444,7 +444,7 @@ struct ListedFacets {
     std::size_t operator()(const UndividedMeshes& meshes) const {
         std::size_t facets = meshes.crossings->pairs.size();
         for (const UncrossedFacets& list : meshes.uncrossed) facets += list.facets.size();
-        return facets;
+        return meshes.beside != nullptr ? facets + (*this)(*meshes.beside) : facets;
     }
 };
 

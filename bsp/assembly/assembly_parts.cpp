@@ -166,18 +166,21 @@ void Gatherer::gather(const CellTree& tree) {
 void Gatherer::gather(const UndividedMeshes& meshes) {
     first_serial_ = meshes.crossings->operands[0].serial;
     may_cross_straight_ = meshes.may_have_straight_crossings;
-    mark_uncrossed(meshes.uncrossed);
-    mark_crossed(*meshes.crossings);
-    mark_special(*meshes.crossings);
+    for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get()) {
+        mark_uncrossed(m->uncrossed);
+        mark_crossed(*m->crossings);
+        mark_special(*m->crossings);
+    }
     if (meshes.outlined != nullptr) mark_outlined(meshes);
     number_facets();
     if (meshes.outlined != nullptr) {
         add_outlined_edges(meshes);
     } else {
-        trace_facets(*meshes.crossings, out_, edges_, threads_);
+        for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get())
+            trace_facets(*m->crossings, out_, edges_, threads_);
     }
     if (out_.stats.traced_facets == out_.facets.size()) return;
-    needs_tree_ = !meshes.crossings->special.empty();
+    needs_tree_ = !meshes.crossings->special.empty() || meshes.beside != nullptr;
     if (needs_tree_) return;
     const CellTree& tree = meshes.tree->cut()->tree();
     defers_ = tree.crossings != nullptr;
@@ -502,7 +505,8 @@ bool Gatherer::needs_parts(const DeferredLeaf& leaf) const {
     return std::ranges::any_of(leaf.operands, [&](const DeferredLeaf::Operand& o) {
         const FacetMarks& marks = out_.sources[out_.table_of(o.polygons.whole_source())];
         return std::ranges::any_of(o.polygons.facets(), [&](std::uint32_t f) {
-            return !marks.is_traced(f) && (marks.takes_part(f, false) || marks.takes_part(f, true));
+            return (marks.takes_part(f, false) && !marks.is_traced(f, false)) ||
+                   (marks.takes_part(f, true) && !marks.is_traced(f, true));
         });
     });
 }
@@ -525,7 +529,7 @@ void Gatherer::make_parts(AssembledLeaf& leaf) {
         const FacetMarks& marks = out_.sources[table(source)];
         const bool flipped = polygons.flipped() != leaf.complemented;
         const auto make = [&](std::uint32_t f) {
-            if (!marks.takes_part(f, flipped) || marks.is_traced(f)) return;
+            if (!marks.takes_part(f, flipped) || marks.is_traced(f, flipped)) return;
             const std::int32_t number = marks.number_of_worked(f, flipped);
             if (!axis_faces_->takes(number))
                 make_part({source, nullptr, f, polygons.flipped(), false}, leaf, number);
@@ -548,7 +552,7 @@ void Gatherer::make_list_parts(const AssembledLeaf& leaf) {
         const PolygonRef r = polygons[i++];
         const FacetMarks& marks = out_.sources[table(r.source)];
         const bool flipped = r.flipped != leaf.complemented;
-        if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet)) continue;
+        if (!marks.takes_part(r.facet, flipped) || marks.is_traced(r.facet, flipped)) continue;
         const std::int32_t facet = marks.number_of_worked(r.facet, flipped);
         if (axis_faces_->takes(facet)) continue;
         // What cancels within a group is not known afterwards.

@@ -72,6 +72,9 @@ struct Crossings {
     /// general position.
     std::vector<std::uint32_t> special;
     InfinitesimalShift shift;
+    /// Whether another part of the result has the other sides of the same facets
+    /// (UndividedMeshes::beside).
+    bool has_other_sides = false;
     /// By shown facet, where there are special ones: whether the other mesh leaves open its first
     /// corner.
     enum class Corner : std::uint8_t { Unknown, Open, Contained };

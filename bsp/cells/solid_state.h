@@ -65,6 +65,10 @@ struct UndividedMeshes {
     std::shared_ptr<const OutlinedFacets> outlined = nullptr;  ///< of many meshes; else null
     /// As that of a CellTree, whose outlines may lack such lines.
     bool may_have_straight_crossings = false;
+    /// Of an exclusive or of two meshes: what the second one has outside the first one. The rest
+    /// of this is what the first one has outside the second one, and they touch in curves alone.
+    /// Its tree is this one's.
+    std::shared_ptr<const UndividedMeshes> beside = nullptr;
 };
 
 /// A set of prisms along one axis, without a tree: facets that are whole, and the rest of the

@@ -203,7 +203,7 @@ constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
     Rule{"two meshes",
-         "∪, ∩ or − of two imported meshes of a size, 16 facets each, without an index; no work "
+         "∪, ∩, − or ⊕ of two imported meshes of a size, 16 facets each, without an index; no work "
          "limit",
          "uncrossed facets, crossings", &Stats::filtered_leaves,
          FormulaRule{&are_meshes_of_a_size, &evaluate_without_tree}},

@@ -11,6 +11,10 @@
 //    are not needed, so what does not meet the box of the other mesh's facets is left out.
 // 3. Sides of facets follow from the crossings (facet_sides.cpp).
 //
+// An exclusive or is what either mesh has outside the other one, two results side by side. They
+// touch in curves alone unless facets of opposite sides cover a part of one plane, and share the
+// crossings where nothing is moved.
+//
 // Pairs that doubles leave open are decided by integers, as if one mesh were moved by less than any
 // number (pair_search.cpp), or grew so. What is then still not known ends the attempt: the whole is
 // evaluated as all else.
@@ -131,6 +135,7 @@ using Fate = EqualFacets::Fate;
 struct FoundPairs {
     Crossings crossings;
     std::optional<EqualFacets> equal;
+    bool shares_facets = false;  ///< a facet bounds the result for both meshes
 };
 
 // Those with an equal facet, or those without.
@@ -171,6 +176,7 @@ public:
             if (!outcome.is_certain) return std::nullopt;
             std::vector<std::array<int, 3>> all = outcome.wanted;
             all.insert(all.end(), outcome.wished.begin(), outcome.wished.end());
+            out.shares_facets = out.shares_facets || !outcome.wished.empty();
             auto next = shift_along(all);
             if (outcome.is_as_wanted && (outcome.is_as_wished || !next)) {
                 stats += found;
@@ -195,6 +201,8 @@ private:
             EvaluateStats found;
             const PairSearch::Outcome outcome = search_.run(out.crossings, found);
             if (!outcome.is_certain) return std::nullopt;
+            out.shares_facets =
+                out.shares_facets || std::ranges::any_of(outcome.sides, &WantedSide::is_wish);
             if (outcome.is_as_wanted) {
                 stats += found;
                 finish(out);
@@ -234,6 +242,8 @@ private:
     void leave_out_equal(FoundPairs& out) {
         out.equal.emplace(two_.meshes, near_,
                           std::array{operands_.operands[0], operands_.operands[1]});
+        for (const std::vector<Fate>& fates : out.equal->fates)
+            out.shares_facets = out.shares_facets || std::ranges::count(fates, Fate::Kept) != 0;
         search_.recognises_equal = false;
         search_.parts = {select(near_, *out.equal, {false, false}),
                          select(near_, *out.equal, {false, true}),
@@ -294,55 +304,143 @@ TwoLists facets_apart(const TwoMeshes& two, const SolidStates& solids, const Cro
     return out;
 }
 
-// What bounds the result and is not crossed, of either mesh; nothing when that is not known.
-std::optional<std::vector<UncrossedFacets>> find_uncrossed(const TwoMeshes& two,
-                                                           const SolidStates& solids,
-                                                           const EvaluateSettings& options,
-                                                           bool parallel, Crossings& crossings,
-                                                           EvaluateStats& stats) {
-    MemoryBudget memory(options.max_memory);
-    const auto keep = [&](TwoLists facets) {
+// The facets that come near the other mesh, and what is found by them. Formulas over the same
+// meshes are searched one after the other.
+class TwoMeshSearch {
+public:
+    TwoMeshSearch(const TwoMeshes& two, const SolidStates& solids, const EvaluateSettings& options,
+                  bool parallel)
+        : two_(two),
+          solids_(solids),
+          options_(options),
+          parallel_(parallel),
+          memory_(options.max_memory) {
+        if (two.common.is_empty()) return;
+        both_.emplace(two, parallel);
+        const auto& cubes = both_->cubes;
+        held_[0] = memory_.hold(cubes[0]->bytes() + cubes[1]->bytes());
+        do_both(
+            parallel, [&] { near_[0] = cubes[0]->facets_in(cubes[1]->cubes(), threads()); },
+            [&] { near_[1] = cubes[1]->facets_in(cubes[0]->cubes(), threads()); });
+        held_[1] = memory_.hold((near_[0].size() + near_[1].size()) * sizeof(std::uint32_t));
+    }
+
+    // What bounds the result and is not crossed, of either mesh; nothing when that is not known.
+    // `crossings` has the operands.
+    [[nodiscard]] std::optional<std::vector<UncrossedFacets>> find(Crossings& crossings,
+                                                                   EvaluateStats& stats) {
+        if (!both_) return keep(facets_apart(two_, solids_, crossings), crossings, stats);
+        PairsOfMeshes pairs(two_, near_, options_, memory_, parallel_, crossings);
+        for (const bool recognises_equal : {true, false}) {
+            EvaluateStats found;
+            std::optional<FoundPairs> of_pairs = pairs.find(recognises_equal, found);
+            if (!of_pairs) return std::nullopt;
+            auto facets = beside(*of_pairs);
+            // Where equal facets are all around others, nothing says on which side these are.
+            if (!facets && of_pairs->equal) continue;
+            if (!facets) return std::nullopt;
+            stats += found;
+            shares_facets_ = of_pairs->shares_facets;
+            is_general_ = found.doubtful_pairs == 0 && !of_pairs->equal &&
+                          of_pairs->crossings.special.empty();
+            crossings = std::move(of_pairs->crossings);
+            return keep(*std::move(facets), crossings, stats);
+        }
+        return std::nullopt;
+    }
+
+    // The same for another formula; `found` are the crossings of the one before.
+    [[nodiscard]] std::optional<std::vector<UncrossedFacets>> find_again(const Crossings& found,
+                                                                         Crossings& crossings,
+                                                                         EvaluateStats& stats) {
+        if (!both_ || !is_general_) return find(crossings, stats);
+        FoundPairs of_pairs{found, std::nullopt};
+        of_pairs.crossings.operands = std::move(crossings.operands);
+        auto facets = beside(of_pairs);
+        if (!facets) return std::nullopt;
+        crossings = std::move(of_pairs.crossings);
+        return keep(*std::move(facets), crossings, stats);
+    }
+
+    // Whether some facet bounds the result for both meshes, which cover it from opposite sides.
+    [[nodiscard]] bool shares_facets() const { return shares_facets_; }
+
+private:
+    [[nodiscard]] std::uint32_t threads() const { return threads_if(parallel_); }
+
+    [[nodiscard]] std::optional<TwoLists> beside(FoundPairs& found) const {
+        return facets_beside(two_, *both_->grid, both_->cubes, near_, solids_, parallel_, found);
+    }
+
+    std::vector<UncrossedFacets> keep(TwoLists facets, const Crossings& crossings,
+                                      EvaluateStats& stats) {
         std::vector<UncrossedFacets> out;
         for (std::size_t i = 0; i < 2; ++i) {
             std::vector<std::uint32_t>& list = facets[i];
             stats.untouched_polygons += list.size();
-            memory.keep(list.size() * sizeof(std::uint32_t));
-            out.push_back({&two.source(i), crossings.operands[i].inside_above, std::move(list)});
+            memory_.keep(list.size() * sizeof(std::uint32_t));
+            out.push_back({&two_.source(i), crossings.operands[i].inside_above, std::move(list)});
         }
-        stats.memory = memory.peak();
+        stats.memory = memory_.peak();
         return out;
-    };
-    if (two.common.is_empty()) return keep(facets_apart(two, solids, crossings));
-    const CubesOfBoth both(two, parallel);
-    const CubeGrid& grid = *both.grid;
-    const auto& cubes = both.cubes;
-    const auto of_cubes = memory.hold(cubes[0]->bytes() + cubes[1]->bytes());
-    TwoLists near;
-    do_both(
-        parallel, [&] { near[0] = cubes[0]->facets_in(cubes[1]->cubes(), threads_if(parallel)); },
-        [&] { near[1] = cubes[1]->facets_in(cubes[0]->cubes(), threads_if(parallel)); });
-    const auto of_near = memory.hold((near[0].size() + near[1].size()) * sizeof(std::uint32_t));
-    PairsOfMeshes pairs(two, near, options, memory, parallel, crossings);
-    for (const bool recognises_equal : {true, false}) {
-        EvaluateStats found;
-        std::optional<FoundPairs> of_pairs = pairs.find(recognises_equal, found);
-        if (!of_pairs) return std::nullopt;
-        auto facets = facets_beside(two, grid, cubes, near, solids, parallel, *of_pairs);
-        // Where equal facets are all around others, nothing says on which side these are.
-        if (!facets && of_pairs->equal) continue;
-        if (!facets) return std::nullopt;
-        stats += found;
-        crossings = std::move(of_pairs->crossings);
-        return keep(*std::move(facets));
     }
-    return std::nullopt;
+
+    const TwoMeshes& two_;
+    const SolidStates& solids_;
+    const EvaluateSettings& options_;
+    bool parallel_;
+    MemoryBudget memory_;
+    std::optional<CubesOfBoth> both_;  // where the boxes of both meet
+    std::array<MemoryBudget::Held, 2> held_;
+    TwoLists near_;
+    bool shares_facets_ = false;
+    bool is_general_ = false;  // nothing was moved
+};
+
+// The operations that a formula is the sum of, without a part of space in common: an exclusive or
+// of two operands or complements is two differences.
+std::vector<Residual::Ref> disjoint_parts(const Residual::Ref& formula) {
+    if (formula->kind == Residual::Kind::Not && formula->children[0]->kind == Residual::Kind::Xor) {
+        const auto& terms = formula->children[0]->children;
+        if (terms.size() != 2) return {formula};
+        return disjoint_parts(
+            Residual::of_distinct(Residual::Kind::Xor, {Residual::negation(terms[0]), terms[1]}));
+    }
+    if (formula->kind != Residual::Kind::Xor || formula->children.size() != 2) return {formula};
+    const Residual::Ref& a = formula->children[0];
+    const Residual::Ref& b = formula->children[1];
+    return {Residual::of_distinct(Residual::Kind::And, {a, Residual::negation(b)}),
+            Residual::of_distinct(Residual::Kind::And, {Residual::negation(a), b})};
+}
+
+// The parts of an exclusive or, in which both meshes are turned the other way.
+std::optional<UndividedMeshes> find_parts(std::span<const Residual::Ref> parts,
+                                          const SolidStates& solids, TwoMeshSearch& search,
+                                          EvaluateStats& stats) {
+    Crossings crossings = *crossings_of(*parts[0], solids);
+    auto uncrossed = search.find(crossings, stats);
+    if (!uncrossed) return std::nullopt;
+    crossings.has_other_sides = parts.size() > 1;
+    UndividedMeshes out{*std::move(uncrossed), nullptr, nullptr};
+    if (parts.size() > 1) {
+        if (search.shares_facets()) return std::nullopt;
+        Crossings others = *crossings_of(*parts[1], solids);
+        auto beside = search.find_again(crossings, others, stats);
+        if (!beside) return std::nullopt;
+        others.has_other_sides = true;
+        out.beside = std::make_shared<const UndividedMeshes>(UndividedMeshes{
+            *std::move(beside), std::make_shared<const Crossings>(std::move(others)), nullptr});
+    }
+    out.crossings = std::make_shared<const Crossings>(std::move(crossings));
+    return out;
 }
 
 }  // namespace
 
 bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
                     const EvaluateSettings& options, std::size_t least_facets) {
-    if (solids.size() != 2 || options.budget != nullptr || !crossings_of(*formula, solids))
+    if (solids.size() != 2 || options.budget != nullptr ||
+        !crossings_of(*disjoint_parts(formula)[0], solids))
         return false;
     const TwoMeshes two(solids);
     return two.smaller() >= least_facets && two.are_of_a_size() && two.have_outer_references();
@@ -353,19 +451,18 @@ std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
                                                const EvaluateSettings& options,
                                                EvaluateStats& stats,
                                                std::shared_ptr<const LazyTree> tree) {
-    std::optional<Crossings> crossings = crossings_of(*formula, solids);
     const TwoMeshes two(solids);
     const bool parallel =
         options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_facets;
     EvaluateStats made;
-    auto uncrossed = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
-        return find_uncrossed(two, solids, options, parallel, *crossings, made);
+    auto found = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
+        TwoMeshSearch search(two, solids, options, parallel);
+        return find_parts(disjoint_parts(formula), solids, search, made);
     });
-    if (!uncrossed) return std::nullopt;
+    if (!found) return std::nullopt;
     stats = made;
-    return UndividedMeshes{*std::move(uncrossed),
-                           std::make_shared<const Crossings>(*std::move(crossings)),
-                           std::move(tree)};
+    found->tree = std::move(tree);
+    return *std::move(found);
 }
 
 }  // namespace trisect::detail

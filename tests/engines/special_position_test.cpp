@@ -93,6 +93,19 @@ std::uint64_t expect_as_divided(const Solid& a, const Solid& b, Formulas which =
     return doubtful;
 }
 
+// What either has outside the other one, side by side.
+bool is_undivided(const Expression& exclusive_or) {
+    const Solid cells = divided(exclusive_or);
+    EvaluateStats stats;
+    const Solid result = trisect::test::evaluate(exclusive_or, {}, &stats);
+    const auto tree = trisect::detail::state_of(result)->lazy_tree();
+    const PolygonMesh mesh = engines::boundary_mesh(result);
+    EXPECT_EQ(engines::open_edge(mesh), "");
+    EXPECT_EQ(triangles_of(mesh), triangles_of(engines::boundary_mesh(cells)));
+    EXPECT_EQ(result.to_brep().counts(), cells.to_brep().counts());
+    return tree != nullptr && !tree->is_cut();
+}
+
 PolygonMesh sphere() { return trisect::make_icosphere(1, 4); }
 
 PolygonMesh moved(PolygonMesh mesh, const std::array<double, 3>& by) {
@@ -185,6 +198,26 @@ PolygonMesh half_ball(bool upper, std::uint32_t middle) {
         if (i != middle && j != middle) add(middle, j, i);
     }
     return mesh;
+}
+
+TEST(SpecialPosition, ExclusiveOrs) {
+    const Expression a = solid(sphere());
+    PolygonMesh turned = sphere();
+    for (auto& p : turned.points) p = {-p[1], p[0], p[2]};
+    PolygonMesh dented = sphere();
+    for (double& x : dented.points[100]) x *= 0.75;
+    // In general position, apart, along an axis, across each other all over, and all but the same.
+    EXPECT_TRUE(is_undivided(a ^ solid(moved(sphere(), {0.31, 0.17, 0.23}))));
+    EXPECT_TRUE(is_undivided(a ^ solid(moved(sphere(), {3, 0, 0}))));
+    EXPECT_TRUE(is_undivided(a ^ solid(moved(sphere(), {0.5, 0, 0}))));
+    EXPECT_TRUE(is_undivided(a ^ solid(turned)));
+    EXPECT_TRUE(is_undivided(a ^ solid(dented)));
+    EXPECT_TRUE(is_undivided(~a ^ solid(moved(sphere(), {0.31, 0.17, 0.23}))));
+    EXPECT_TRUE(is_undivided(~(a ^ solid(moved(sphere(), {0.5, 0, 0})))));
+    // Facets of opposite sides are none of the result's.
+    const Expression half = solid(half_ball(true, 0));
+    EXPECT_FALSE(is_undivided(half ^ solid(half_ball(false, 0))));
+    EXPECT_FALSE(is_undivided(half ^ solid(half_ball(false, 7))));
 }
 
 TEST(SpecialPosition, HalvesOfACutReunited) {

@@ -37,9 +37,9 @@ public:
     /// The facet is cut or touched somewhere: it does not pass through as it is.
     void set_worked(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(worked, flipped); }
     /// Its edges are known already: trace_facets().
-    void set_traced(std::uint32_t facet) { marks_[facet] |= traced; }
-    [[nodiscard]] bool is_traced(std::uint32_t facet) const {
-        return (marks_[facet] & traced) != 0;
+    void set_traced(std::uint32_t facet, bool flipped) { marks_[facet] |= bit(traced, flipped); }
+    [[nodiscard]] bool is_traced(std::uint32_t facet, bool flipped) const {
+        return (marks_[facet] & bit(traced, flipped)) != 0;
     }
     [[nodiscard]] bool is_present(std::uint32_t facet, bool flipped) const {
         return (marks_[facet] & bit(present, flipped)) != 0;
@@ -145,7 +145,7 @@ private:
     }
     static constexpr unsigned present = 1;
     static constexpr unsigned worked = 4;
-    static constexpr std::uint8_t traced = 16;
+    static constexpr unsigned traced = 16;
     static constexpr std::uint8_t bit(unsigned what, bool flipped) {
         return static_cast<std::uint8_t>(what << (flipped ? 1 : 0));
     }

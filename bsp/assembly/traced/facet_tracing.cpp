@@ -87,7 +87,7 @@ bool FacetTracing::traces(std::uint32_t number) {
     const FacetMarks* const marks = marks_[operand];
     const std::uint32_t facet = number - o.first;
     if (marks == nullptr || !marks->takes_part(facet, o.inside_above) ||
-        marks->is_worked(facet, !o.inside_above))
+        (marks->is_worked(facet, !o.inside_above) && !crossings_.has_other_sides))
         return false;
     special_ = std::ranges::binary_search(crossings_.special, number) ? number : none;
     if (!list_segments() || !trace(*marks->source(), facet)) return false;

@@ -40,7 +40,7 @@ public:
             out.push_back({from, to, worked, line_of(edge, own)});
         }
         if (o.inside_above) std::reverse(out.end() - facet.count, out.end());
-        marks.set_traced(facet.number - o.first);
+        marks.set_traced(facet.number - o.first, o.inside_above);
         ++parts_.stats.traced_facets;
     }
 
@@ -67,7 +67,7 @@ public:
             if (o.inside_above) std::swap(from, to);
             out.push_back({from, to, worked, {own + i, false}});
         }
-        marks.set_traced(facet);
+        marks.set_traced(facet, o.inside_above);
         ++parts_.stats.traced_facets;
     }
 

@@ -90,7 +90,7 @@ private:
         FacetMarks* const marks = marks_[operand];
         const std::uint32_t facet = traced.number - o.first;
         add_edges(*marks, facet, o.inside_above);
-        marks->set_traced(facet);
+        marks->set_traced(facet, o.inside_above);
         ++parts_.stats.traced_facets;
     }
 
@@ -117,7 +117,7 @@ private:
             if (o.inside_above) std::swap(from, to);
             edges_.push_back({from, to, worked, {edge + i, false}});
         }
-        marks->set_traced(facet);
+        marks->set_traced(facet, o.inside_above);
         ++parts_.stats.traced_facets;
     }
 
