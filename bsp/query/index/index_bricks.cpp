@@ -27,6 +27,13 @@ namespace {
 
 constexpr double listing_margin = 0x1p-10;
 
+// Of a polygon in the bricks below one cell of the grid. Facets of most meshes need two to three;
+// each level has four times as many where thin ones lie side by side, and lists shorter by a half.
+constexpr double most_copies = 4;
+
+// Grids of so few are divided whatever it takes.
+constexpr std::size_t few_polygons = 4096;
+
 IndexBrickBuilder::Low sum(const IndexBrickBuilder::Low& low, std::uint32_t x, std::uint32_t y,
                            std::uint32_t z, unsigned shift) {
     return {low[0] + (x << shift), low[1] + (y << shift), low[2] + (z << shift)};
@@ -176,7 +183,7 @@ void IndexBrickBuilder::sort_into_cells(Work& w) const {
 }
 
 // Whether a point near the surface finds a list that is shorter by a third.
-bool IndexBrickBuilder::is_worth_it(const Work& w) {
+bool IndexBrickBuilder::is_worth_it(const Work& w) const {
     double squares = 0;
     for (std::size_t c = 0; c < 64; ++c) {
         const double n = w.begin[c + 1] - w.begin[c];
@@ -185,6 +192,8 @@ bool IndexBrickBuilder::is_worth_it(const Work& w) {
     const auto whole = static_cast<double>(w.items.size());
     // Short lists are good enough where long polygons would be listed again and again.
     if (whole <= LeafPlanes::most && w.begin[64] > 2.5 * whole) return false;
+    if (polygons_.size() > few_polygons && copies_ * w.begin[64] > most_copies * whole)
+        return false;
     return squares <= 0.66 * whole * static_cast<double>(w.begin[64]);
 }
 
@@ -398,7 +407,11 @@ std::uint32_t IndexBrickBuilder::make(const Low& low, int level, std::span<const
     sort_into_cells(w);
     if (!is_worth_it(w)) return make_alone(w, low, level, ids, winding);
     if (!sweep(w, block, winding)) return make_list(ids, winding);
-    return make_cells(w, low, level);
+    const double copies = copies_;
+    copies_ *= static_cast<double>(w.begin[64]) / static_cast<double>(ids.size());
+    const std::uint32_t made = make_cells(w, low, level);
+    copies_ = copies;
+    return made;
 }
 
 }  // namespace trisect::detail

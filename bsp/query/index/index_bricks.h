@@ -65,7 +65,7 @@ private:
     [[nodiscard]] std::uint64_t cells_of(const Work& w, std::size_t item) const;
     [[nodiscard]] std::size_t limit(int level) const;
     void sort_into_cells(Work& w) const;
-    [[nodiscard]] static bool is_worth_it(const Work& w);
+    [[nodiscard]] bool is_worth_it(const Work& w) const;
     [[nodiscard]] bool sweep(Work& w, const IndexBlock& block, std::int32_t winding) const;
     [[nodiscard]] std::uint32_t make_alone(Work& w, const Low& low, int level,
                                            std::span<const Id> ids, std::int32_t winding);
@@ -85,6 +85,7 @@ private:
     bool open_;
     std::vector<std::unique_ptr<Work>> work_;  // by level
     std::size_t depth_ = 0;
+    double copies_ = 1;  // of a polygon of the grid's cell, in bricks around the one that is made
 };
 
 }  // namespace trisect::detail
