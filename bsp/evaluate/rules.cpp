@@ -216,13 +216,14 @@ constexpr std::array all_rules{
          "planes, none through a corner; no work limit",
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
-    Rule{"many meshes",
-         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
-         "stand on each other, or the first one's has half of all, or of few facets whose boxes "
-         "touch or are apart; none with an index, not all across the axes or a leaf of prisms; no "
-         "limits",
-         "uncrossed facets, outlines", &Stats::filtered_leaves,
-         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
+    Rule{
+        "many meshes",
+        "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
+        "stand on each other, or the first one's has half of all, or the largest one meets more "
+        "than 64, or of few facets whose boxes touch or are apart, or of thin facets; none with an "
+        "index, not all across the axes or a leaf of prisms; no limits",
+        "uncrossed facets, outlines", &Stats::filtered_leaves,
+        FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",
          &Stats::constant_cells, CellRule{&is_constant, &CellSteps::make_constant}},
     Rule{"share", "one operand is left, and it is embedded",

@@ -35,6 +35,7 @@
 #include <trisect/bsp/many_meshes/common_part.h>
 #include <trisect/bsp/many_meshes/operand_clusters.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/thin_facets.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
 
@@ -143,6 +144,39 @@ bool are_few(const SolidStates& solids) {
     return facets <= few_facets;
 }
 
+// Whether facets are thin, by are_mostly_thin(): needles; of less thin ones, facets of formulas in
+// two levels.
+constexpr double thin = 40;
+constexpr double thin_of_nested = 8;
+constexpr std::size_t least_of_thin = 128;  // facets an operand
+
+bool are_thin(const Residual& formula, const SolidStates& solids) {
+    std::vector<const Source*> sources;
+    std::size_t facets = 0;
+    for (const auto& s : solids) {
+        sources.push_back(&source_of(*s));
+        facets += source_of(*s).facet_count();
+    }
+    if (facets < least_of_thin * sources.size()) return false;
+    return are_mostly_thin(sources, crossings_of(formula, solids) ? thin : thin_of_nested);
+}
+
+// A large facet that more operands cross is traced in no cell (FacetOutline): whether the largest
+// box meets as many others.
+constexpr std::size_t most_cutters = 64;
+
+bool meets_many(std::span<const Box> boxes) {
+    const auto size = [](const Box& b) {
+        double out = 1;
+        for (std::size_t k = 0; k < 3; ++k) out *= static_cast<double>(b.hi[k] - b.lo[k] + 1);
+        return out;
+    };
+    const auto largest = std::ranges::max_element(boxes, {}, size);
+    const auto met =
+        std::ranges::count_if(boxes, [&](const Box& b) { return b.overlaps(*largest); });
+    return static_cast<std::size_t>(met) > most_cutters;
+}
+
 // Whether two boxes begin or end at one coordinate, or lie about one: then edges of round shapes
 // cross edges.
 bool may_touch(const Box& a, const Box& b) {
@@ -205,6 +239,7 @@ public:
     [[nodiscard]] std::optional<OutlinedSolid> of_all(EvaluateStats& stats) const {
         if (meshes_.nested != nullptr) return of_node(NestedFormula::root, stats);
         if (!first_is_last_) return of_rest(stats);
+        if (order_.empty() && clusters_.empty()) return of_operand(0);
         return common_of(
             meshes_.facet_count(), stats, [&](EvaluateStats&) { return of_operand(0); },
             [&](EvaluateStats& s) { return of_rest(s); });
@@ -222,15 +257,17 @@ private:
 
     // Operands that leave open what is far out, as tools do, are clustered: of two that are apart
     // nothing is compared. Others cut down whatever they meet. Where all tools are in the first
-    // operand, its facets stay whole until all of them come.
+    // operand, its facets stay whole until all of them come. Tools beside all that the others leave
+    // open do nothing.
     void set_order() {
         first_is_last_ = crowd_of(solids_) == Crowd::InFirst;
-        std::vector<Box> boxes;
+        const std::vector<Box> boxes = boxes_of(solids_);
+        const std::optional<Box> reach = reach_of(boxes);
         std::vector<std::uint32_t> all;
         std::vector<std::uint32_t> bounded;
         for (std::uint32_t i = 0; i < solids_.size(); ++i) {
-            boxes.push_back(meshes_.sources[i]->box());
             if (first_is_last_ && i == 0) continue;
+            if (reach && is_open_far(i) && !boxes[i].overlaps(*reach)) continue;
             all.push_back(i);
             (is_open_far(i) ? bounded : order_).push_back(i);
         }
@@ -238,6 +275,15 @@ private:
         if (clusters_.size() > 1) return;
         clusters_.clear();
         order_ = std::move(all);
+    }
+    // A box with what all leave open together: other operands leave all of it open, or none if it
+    // is empty.
+    [[nodiscard]] std::optional<Box> reach_of(std::span<const Box> boxes) const {
+        std::optional<Box> out;
+        for (std::uint32_t i = 0; i < solids_.size(); ++i)
+            if (!is_open_far(i)) out = out ? out->intersected(boxes[i]) : boxes[i];
+        if (out && out->is_empty()) out.reset();
+        return out;
     }
     [[nodiscard]] bool is_open_far(std::uint32_t slot) const {
         return is_open_far_out(*solids_[slot], meshes_.operands->operands[slot]);
@@ -510,7 +556,8 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
     if (!may_be_many_meshes(formula, solids, options)) return false;
     if (crowd_of(solids) != Crowd::None) return true;
     const std::vector<Box> boxes = boxes_of(solids);
-    return do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes));
+    return do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes)) ||
+           meets_many(boxes) || are_thin(*formula, solids);
 }
 
 bool do_fill_one_place(const SolidStates& solids) { return crowd_of(solids) == Crowd::All; }
