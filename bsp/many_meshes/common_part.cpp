@@ -6,6 +6,9 @@
 // the pieces of its edges on the open side, and by the crossings themselves; of a part in several
 // pieces one may go that nothing crosses. No piece is made that does not bound the result, and an
 // edge that two facets share is pierced in the same vertices.
+//
+// Facets whose boxes do not meet that of the other solid lie far out of it: they are kept as they
+// are, or not at all. Mostly these are many more than the others; then vertices keep their numbers.
 
 #include <trisect/bsp/many_meshes/common_part.h>
 
@@ -41,8 +44,8 @@ public:
           finder_(meshes, options, special_),
           segments_(meshes, exact_) {}
 
-    [[nodiscard]] bool run(const OutlinedSolid& first, const OutlinedSolid& second,
-                           EvaluateStats& stats) {
+    /// Takes vertices from them.
+    [[nodiscard]] bool run(OutlinedSolid& first, OutlinedSolid& second, EvaluateStats& stats) {
         start(first, second);
         if (!find_cuts(stats)) return false;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -50,10 +53,11 @@ public:
             cuts_[i].sort(solids_[i]->facets.size());
             if (!find_sides(i)) return false;
         }
+        out_.open_far_out = first.open_far_out && second.open_far_out;
         reserve();
+        take_vertices(first, second);
         keep_parts(0);
         keep_parts(1);
-        out_.open_far_out = first.open_far_out && second.open_far_out;
         if (!lines_->empty()) out_.lines.push_back(std::move(lines_));
         return true;
     }
@@ -77,8 +81,10 @@ private:
     enum class Side : std::uint8_t { Unknown, Open, Closed };
 
     void start(const OutlinedSolid& first, const OutlinedSolid& second);
+    void find_near(std::size_t solid);
     [[nodiscard]] bool find_cuts(EvaluateStats& stats);
     void reserve();
+    void take_vertices(OutlinedSolid& first, OutlinedSolid& second);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
                  const FacetCrossing& line);
     [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
@@ -98,15 +104,23 @@ private:
                                                    std::uint32_t root);
     [[nodiscard]] bool mark_ends(std::size_t solid);
     [[nodiscard]] bool mark(std::size_t solid, std::uint32_t vertex, Side side);
-    void join_vertices(std::size_t solid, DisjointSets& joined) const;
+    void join_vertices(std::size_t solid);
+    void mark_beyond(std::size_t solid);
     void keep_parts(std::size_t solid);
-    void keep_whole(std::size_t solid, std::uint32_t place);
+    [[nodiscard]] bool is_untouched(std::size_t solid, std::uint32_t place) const;
+    [[nodiscard]] bool is_all_open(std::size_t solid, const OutlinedSolid::Facet& f) const;
+    void keep_all(std::size_t solid, std::uint32_t place);
     void keep_cut(std::size_t solid, std::uint32_t place);
-    void add_facet(const OutlinedSolid::Facet& f, std::uint32_t first, bool whole);
+    void add_facet(const OutlinedSolid::Facet& f, std::uint32_t first);
     [[nodiscard]] std::uint32_t kept_vertex(std::size_t solid, std::uint32_t v);
     [[nodiscard]] std::uint32_t kept_made(std::uint32_t v);
+    // Of a vertex of a facet that is near.
     [[nodiscard]] bool is_open(std::size_t solid, std::uint32_t v) const {
         return sides_[solid][v] == Side::Open;
+    }
+    // What is far out of the other solid.
+    [[nodiscard]] bool is_far_open(std::size_t solid) const {
+        return solids_[1 - solid]->open_far_out;
     }
 
     const ManyMeshes& meshes_;
@@ -118,11 +132,17 @@ private:
     std::unique_ptr<OutlinedSolid::Lines> lines_;
     std::vector<OutlineVertex> made_;
     FlatMap made_by_name_;
-    std::array<Buckets<Stop>, 2> stops_;              // by edge
+    std::array<Buckets<Stop>, 2> stops_;                                           // by edge
+    std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 2> pierced_;  // edge and place
+    std::array<std::vector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
     std::array<Buckets<Cut>, 2> cuts_;                // by place
     std::array<std::vector<Side>, 2> sides_;          // by vertex: of the other solid
     std::array<std::vector<std::uint32_t>, 2> kept_;  // by vertex: its number in the result
     std::vector<std::uint32_t> kept_made_;
+    // Added to a vertex's number, where all keep theirs.
+    bool keeps_numbers_ = false;
+    std::array<std::uint32_t, 2> added_{};
+    DisjointSets joined_;
     OutlinedSolid out_;
 };
 
@@ -135,12 +155,21 @@ void CommonPart::Steps::start(const OutlinedSolid& first, const OutlinedSolid& s
     for (std::size_t i = 0; i < 2; ++i) {
         stops_[i].clear();
         cuts_[i].clear();
+        pierced_[i].clear();
+        find_near(i);
     }
     out_ = {};
 }
 
+void CommonPart::Steps::find_near(std::size_t solid) {
+    near_[solid].clear();
+    const std::vector<OutlineBox>& boxes = solids_[solid]->boxes;
+    for (std::uint32_t f = 0; f < boxes.size(); ++f)
+        if (boxes[f].meets(solids_[1 - solid]->box)) near_[solid].push_back(f);
+}
+
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
-    if (!finder_.find(*solids_[0], *solids_[1], stats)) return false;
+    if (!finder_.find(*solids_[0], *solids_[1], {near_[0], near_[1]}, stats)) return false;
     lines_ = std::make_unique<OutlinedSolid::Lines>();
     lines_->reserve(finder_.pairs().size());  // lines stay where they are
     for (const CrossedFacets& c : finder_.pairs()) {
@@ -165,6 +194,7 @@ void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
         // Walking on along the edge one comes to the left of what ends there.
         const std::uint32_t cutter = solids_[1 - owner]->facets[places[1 - owner]].number;
         stops_[owner].add(end.edge, {ends[k], (k == 1) == along[owner], cutter, 0});
+        pierced_[owner].emplace_back(end.edge, places[owner]);
     }
     for (std::size_t i = 0; i < 2; ++i)
         cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], &line});
@@ -244,10 +274,10 @@ bool CommonPart::Steps::mark(std::size_t solid, std::uint32_t vertex, Side side)
 // Of the edges that are pierced.
 bool CommonPart::Steps::mark_ends(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
-    std::uint32_t place = 0;
-    for (std::uint32_t e = 0; e < s.edges.size(); ++e) {
-        while (e >= s.facets[place].first + s.facets[place].count) ++place;
-        if (!stops_[solid].has(e)) continue;
+    auto& pierced = pierced_[solid];
+    std::ranges::sort(pierced);
+    pierced.erase(std::unique(pierced.begin(), pierced.end()), pierced.end());
+    for (const auto& [e, place] : pierced) {
         const std::span<Stop> stops = stops_[solid].of(e);
         if (!sort_stops(s.edges[e], s.facets[place].number, s, stops)) return false;
         for (std::size_t i = 1; i < stops.size(); ++i)
@@ -259,34 +289,62 @@ bool CommonPart::Steps::mark_ends(std::size_t solid) {
     return true;
 }
 
-void CommonPart::Steps::join_vertices(std::size_t solid, DisjointSets& joined) const {
+// What is surely beyond the other solid's box is far out.
+void CommonPart::Steps::mark_beyond(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
-    for (std::uint32_t e = 0; e < s.edges.size(); ++e)
-        if (!stops_[solid].has(e)) joined.join(s.edges[e].from, s.edges[e].to);
+    const OutlineBox& other = solids_[1 - solid]->box;
+    const Side far = is_far_open(solid) ? Side::Open : Side::Closed;
+    for (const std::uint32_t f : near_[solid]) {
+        if (other.contains(s.boxes[f])) continue;
+        for (const OutlinedSolid::Edge& e : s.edges_of(s.facets[f])) {
+            if (sides_[solid][e.from] != Side::Unknown) continue;
+            OutlineBox box = OutlineBox::none();
+            box.add(s.vertices[e.from].at);
+            if (!box.meets(other)) sides_[solid][e.from] = far;
+        }
+    }
 }
 
-// Of all vertices.
+// Those of facets that are near.
+void CommonPart::Steps::join_vertices(std::size_t solid) {
+    const OutlinedSolid& s = *solids_[solid];
+    joined_.start(s.vertices.size());
+    for (const std::uint32_t f : near_[solid]) {
+        const std::uint32_t first = s.facets[f].first;
+        for (std::uint32_t e = first; e < first + s.facets[f].count; ++e)
+            if (!stops_[solid].has(e)) joined_.join(s.edges[e].from, s.edges[e].to);
+    }
+}
+
+// Of the vertices of facets that are near. Each is where an edge begins.
 bool CommonPart::Steps::find_sides(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
     std::vector<Side>& sides = sides_[solid];
     sides.assign(s.vertices.size(), Side::Unknown);
     if (!mark_ends(solid)) return false;
-    DisjointSets joined;
-    joined.start(s.vertices.size());
-    join_vertices(solid, joined);
-    for (std::uint32_t v = 0; v < sides.size(); ++v)
-        if (sides[v] != Side::Unknown && !mark(solid, joined.root(v), sides[v])) return false;
-    for (std::uint32_t v = 0; v < sides.size(); ++v) {
-        const std::uint32_t root = joined.root(v);
+    mark_beyond(solid);
+    join_vertices(solid);
+    const auto for_each_vertex = [&](const auto& is_right) {
+        return std::ranges::all_of(near_[solid], [&](std::uint32_t f) {
+            return std::ranges::all_of(s.edges_of(s.facets[f]), [&](const OutlinedSolid::Edge& e) {
+                return is_right(e.from);
+            });
+        });
+    };
+    const auto tell_root = [&](std::uint32_t v) {
+        return sides[v] == Side::Unknown || mark(solid, joined_.root(v), sides[v]);
+    };
+    const auto ask_root = [&](std::uint32_t v) {
+        const std::uint32_t root = joined_.root(v);
         if (sides[root] == Side::Unknown) {
-            const auto open = side_of_part(solid, joined, root);
+            const auto open = side_of_part(solid, joined_, root);
             if (!open) return false;
             sides[root] = *open ? Side::Open : Side::Closed;
         }
         if (sides[v] == Side::Unknown) sides[v] = sides[root];
-        if (sides[v] != sides[root]) return false;
-    }
-    return true;
+        return sides[v] == sides[root];
+    };
+    return for_each_vertex(tell_root) && for_each_vertex(ask_root);
 }
 
 // Of vertices that hang together and that nothing separates from the other solid.
@@ -312,7 +370,26 @@ void CommonPart::Steps::reserve() {
                           made_.size());
 }
 
+// All, where most are kept, and few before were not.
+void CommonPart::Steps::take_vertices(OutlinedSolid& first, OutlinedSolid& second) {
+    const std::size_t facets = first.facets.size() + second.facets.size();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const OutlinedSolid& s = *solids_[i];
+        if (is_far_open(i)) kept += s.facets.size() - near_[i].size();
+        for (const std::uint32_t f : near_[i])
+            kept += is_open(i, s.edges[s.facets[f].first].from) ? 1 : 0;
+    }
+    keeps_numbers_ =
+        2 * kept > facets && first.vertices.size() + second.vertices.size() <= 2 * facets;
+    if (!keeps_numbers_) return;
+    added_ = {0, static_cast<std::uint32_t>(first.vertices.size())};
+    out_.vertices = std::move(first.vertices);
+    out_.vertices.insert(out_.vertices.end(), second.vertices.begin(), second.vertices.end());
+}
+
 std::uint32_t CommonPart::Steps::kept_vertex(std::size_t solid, std::uint32_t v) {
+    if (keeps_numbers_) return added_[solid] + v;
     std::uint32_t& number = kept_[solid][v];
     if (number != none) return number;
     number = static_cast<std::uint32_t>(out_.vertices.size());
@@ -328,23 +405,48 @@ std::uint32_t CommonPart::Steps::kept_made(std::uint32_t v) {
     return number;
 }
 
-void CommonPart::Steps::add_facet(const OutlinedSolid::Facet& f, std::uint32_t first, bool whole) {
+void CommonPart::Steps::add_facet(const OutlinedSolid::Facet& f, std::uint32_t first) {
     const auto count = static_cast<std::uint32_t>(out_.edges.size()) - first;
     if (count == 0) return;
-    out_.facets.push_back({f.number, f.slot, first, count, whole});
+    out_.facets.push_back({f.number, f.slot, first, count, false});
     OutlineBox& box = out_.boxes.emplace_back(OutlineBox::none());
     for (std::uint32_t e = first; e < first + count; ++e)
         box.add(out_.vertices[out_.edges[e].from].at);
     out_.box.add(box);
 }
 
-void CommonPart::Steps::keep_whole(std::size_t solid, std::uint32_t place) {
+// A facet, or what there is of it.
+void CommonPart::Steps::keep_all(std::size_t solid, std::uint32_t place) {
     const OutlinedSolid& s = *solids_[solid];
     const OutlinedSolid::Facet& f = s.facets[place];
     const auto first = static_cast<std::uint32_t>(out_.edges.size());
-    for (const OutlinedSolid::Edge& e : s.edges_of(f))
-        out_.edges.push_back({kept_vertex(solid, e.from), kept_vertex(solid, e.to), e.line, e.own});
-    add_facet(f, first, true);
+    if (keeps_numbers_) {
+        const std::uint32_t added = added_[solid];
+        for (const OutlinedSolid::Edge& e : s.edges_of(f))
+            out_.edges.push_back({added + e.from, added + e.to, e.line, e.own});
+    } else {
+        for (const OutlinedSolid::Edge& e : s.edges_of(f))
+            out_.edges.push_back(
+                {kept_vertex(solid, e.from), kept_vertex(solid, e.to), e.line, e.own});
+    }
+    out_.facets.push_back({f.number, f.slot, first, f.count, f.whole});
+    out_.boxes.push_back(s.boxes[place]);
+    out_.box.add(s.boxes[place]);
+}
+
+bool CommonPart::Steps::is_untouched(std::size_t solid, std::uint32_t place) const {
+    if (cuts_[solid].has(place)) return false;
+    const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
+    for (std::uint32_t e = f.first; !f.whole && e < f.first + f.count; ++e)
+        if (stops_[solid].has(e)) return false;
+    return true;
+}
+
+// Of one that nothing touches, which a facet is as a whole.
+bool CommonPart::Steps::is_all_open(std::size_t solid, const OutlinedSolid::Facet& f) const {
+    const auto edges = solids_[solid]->edges_of(f).first(f.whole ? 1 : f.count);
+    return std::ranges::all_of(
+        edges, [&](const OutlinedSolid::Edge& e) { return is_open(solid, e.from); });
 }
 
 void CommonPart::Steps::keep_cut(std::size_t solid, std::uint32_t place) {
@@ -365,18 +467,25 @@ void CommonPart::Steps::keep_cut(std::size_t solid, std::uint32_t place) {
     }
     for (const Cut& c : cuts_[solid].of(place))
         out_.edges.push_back({kept_made(c.from), kept_made(c.to), c.line, -1});
-    add_facet(f, first, false);
+    add_facet(f, first);
 }
 
 void CommonPart::Steps::keep_parts(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
-    kept_[solid].assign(s.vertices.size(), none);
+    if (!keeps_numbers_) kept_[solid].assign(s.vertices.size(), none);
     kept_made_.resize(made_.size(), none);
+    auto near = near_[solid].begin();
     for (std::uint32_t f = 0; f < s.facets.size(); ++f) {
-        if (cuts_[solid].has(f) || !s.facets[f].whole) {
+        if (near == near_[solid].end() || *near != f) {
+            if (is_far_open(solid)) keep_all(solid, f);
+            continue;
+        }
+        ++near;
+        const bool untouched = is_untouched(solid, f);
+        if (untouched && is_all_open(solid, s.facets[f])) {
+            keep_all(solid, f);
+        } else if (!untouched || !s.facets[f].whole) {
             keep_cut(solid, f);
-        } else if (is_open(solid, s.edges[s.facets[f].first].from)) {
-            keep_whole(solid, f);
         }
     }
 }

@@ -19,7 +19,7 @@ namespace trisect::detail {
 namespace {
 
 // Pairs that are compared as they are.
-constexpr std::uint64_t few_pairs = 4000;
+constexpr std::uint64_t few_pairs = 16000;
 // What a splitting plane may leave of the pairs; once in a row it may leave more.
 constexpr double worthy_part_of_pairs = 0.75;
 
@@ -80,7 +80,7 @@ private:
 }  // namespace
 
 bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& second,
-                               EvaluateStats& stats) {
+                               const Places& near, EvaluateStats& stats) {
     solids_ = {&first, &second};
     stats_ = &stats;
     found_.clear();
@@ -89,11 +89,8 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
     Cell cell;
     cell.bounds = {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
     for (std::size_t i = 0; i < 2; ++i) {
-        const OutlineBox& other = solids_[1 - i]->box;
-        const std::vector<OutlineBox>& boxes = solids_[i]->boxes;
-        cell.items[i].reserve(boxes.size());
-        for (std::uint32_t f = 0; f < boxes.size(); ++f)
-            if (boxes[f].meets(other)) cell.items[i].push_back({boxes[f], f});
+        cell.items[i].reserve(near[i].size());
+        for (const std::uint32_t f : near[i]) cell.items[i].push_back({solids_[i]->boxes[f], f});
     }
     return solve(cell);
 }

@@ -32,9 +32,11 @@ public:
                         SpecialPosition& special)
         : meshes_(meshes), options_(options), special_(meshes, special) {}
 
+    /// Places of facets whose boxes meet that of the other solid, ascending.
+    using Places = std::array<std::span<const std::uint32_t>, 2>;
     /// False when a cell cannot be listed in doubles. Counts.
     [[nodiscard]] bool find(const OutlinedSolid& first, const OutlinedSolid& second,
-                            EvaluateStats& stats);
+                            const Places& near, EvaluateStats& stats);
     /// Each pair once.
     [[nodiscard]] std::span<const CrossedFacets> pairs() const { return found_; }
 

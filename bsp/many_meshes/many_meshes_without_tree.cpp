@@ -60,6 +60,10 @@ bool is_open_far_out(const SolidState& solid, const Crossings::Operand& operand)
 constexpr double crowded_depth = 2.5;
 constexpr double crowded_part = 0.3;
 
+// In fewer, neighbours are compared first; from here on that is less than what cells compare and
+// assembly puts together.
+constexpr double near_depth = 2;
+
 // The part of the common box that the first operand's has, where all others are tools in it.
 constexpr double large_first_part = 0.5;
 
@@ -71,7 +75,7 @@ constexpr double standing_part = 0.5;
 constexpr std::size_t few_facets = 20000;
 constexpr double touching_part = 0.125;
 
-enum class Crowd : std::uint8_t { None, All, InFirst };
+enum class Crowd : std::uint8_t { None, Near, All, InFirst };
 
 // Whether a box ends where another one begins, and they have a part of a plane in common.
 bool stands(const Box& a, const Box& b) {
@@ -224,7 +228,8 @@ Crowd crowd_of(const SolidStates& solids) {
     for (const auto& s : solids) sum += part_of(*s);
     if (sum >= std::min(crowded_depth, crowded_part * static_cast<double>(solids.size())))
         return Crowd::All;
-    return part_of(*solids[0]) >= large_first_part ? Crowd::InFirst : Crowd::None;
+    if (part_of(*solids[0]) >= large_first_part) return Crowd::InFirst;
+    return sum >= near_depth ? Crowd::Near : Crowd::None;
 }
 
 class BalancedTree {
@@ -258,9 +263,11 @@ private:
     // Operands that leave open what is far out, as tools do, are clustered: of two that are apart
     // nothing is compared. Others cut down whatever they meet. Where all tools are in the first
     // operand, its facets stay whole until all of them come. Tools beside all that the others leave
-    // open do nothing.
+    // open do nothing. Where operands do not fill one place neighbours come first: then most of a
+    // solid is far from the other one.
     void set_order() {
-        first_is_last_ = crowd_of(solids_) == Crowd::InFirst;
+        const Crowd crowd = crowd_of(solids_);
+        first_is_last_ = crowd == Crowd::InFirst;
         const std::vector<Box> boxes = boxes_of(solids_);
         const std::optional<Box> reach = reach_of(boxes);
         std::vector<std::uint32_t> all;
@@ -272,6 +279,10 @@ private:
             (is_open_far(i) ? bounded : order_).push_back(i);
         }
         clusters_ = operand_clusters(boxes, bounded);
+        if (crowd != Crowd::All) {
+            for (auto& cluster : clusters_) order_in_space(boxes, cluster);
+            if (bounded.size() == all.size()) order_in_space(boxes, all);
+        }
         if (clusters_.size() > 1) return;
         clusters_.clear();
         order_ = std::move(all);

@@ -17,4 +17,8 @@ namespace trisect::detail {
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> operand_clusters(
     std::span<const Box> boxes, std::span<const std::uint32_t> slots);
 
+/// Puts slots in an order in which the first half lies on one side of the second one, and so on in
+/// each half, as far as the middles of boxes go.
+void order_in_space(std::span<const Box> boxes, std::span<std::uint32_t> slots);
+
 }  // namespace trisect::detail

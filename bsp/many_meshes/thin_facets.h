@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether facets are long and thin.
+// Shapes of facets: whether most are long and thin.
 #pragma once
 
 #include <span>
