@@ -134,6 +134,7 @@ private:
     FlatMap made_by_name_;
     std::array<Buckets<Stop>, 2> stops_;                                           // by edge
     std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 2> pierced_;  // edge and place
+    std::vector<std::uint8_t> is_marked_;                                          // of these edges
     std::array<std::vector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
     std::array<Buckets<Cut>, 2> cuts_;                // by place
     std::array<std::vector<Side>, 2> sides_;          // by vertex: of the other solid
@@ -274,10 +275,9 @@ bool CommonPart::Steps::mark(std::size_t solid, std::uint32_t vertex, Side side)
 // Of the edges that are pierced.
 bool CommonPart::Steps::mark_ends(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
-    auto& pierced = pierced_[solid];
-    std::ranges::sort(pierced);
-    pierced.erase(std::unique(pierced.begin(), pierced.end()), pierced.end());
-    for (const auto& [e, place] : pierced) {
+    is_marked_.assign(s.edges.size(), 0);
+    for (const auto& [e, place] : pierced_[solid]) {
+        if (std::exchange(is_marked_[e], 1) != 0) continue;
         const std::span<Stop> stops = stops_[solid].of(e);
         if (!sort_stops(s.edges[e], s.facets[place].number, s, stops)) return false;
         for (std::size_t i = 1; i < stops.size(); ++i)
@@ -380,8 +380,9 @@ void CommonPart::Steps::take_vertices(OutlinedSolid& first, OutlinedSolid& secon
         for (const std::uint32_t f : near_[i])
             kept += is_open(i, s.edges[s.facets[f].first].from) ? 1 : 0;
     }
+    const std::size_t edges = first.edges.size() + second.edges.size();
     keeps_numbers_ =
-        2 * kept > facets && first.vertices.size() + second.vertices.size() <= 2 * facets;
+        2 * kept > facets && 3 * (first.vertices.size() + second.vertices.size()) <= 2 * edges;
     if (!keeps_numbers_) return;
     added_ = {0, static_cast<std::uint32_t>(first.vertices.size())};
     out_.vertices = std::move(first.vertices);

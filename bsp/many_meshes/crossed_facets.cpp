@@ -18,14 +18,22 @@ namespace trisect::detail {
 
 namespace {
 
-// Pairs that are compared as they are.
-constexpr std::uint64_t few_pairs = 16000;
+// Pairs that are compared as they are; more, where facets are few.
+constexpr std::uint64_t few_pairs = 4000;
+constexpr std::uint64_t pairs_of_few = 16000;
+constexpr std::size_t few_items = 280;
 // What a splitting plane may leave of the pairs; once in a row it may leave more.
 constexpr double worthy_part_of_pairs = 0.75;
 
 template <class Items>
 std::uint64_t pairs_of(const Items& items) {
     return std::uint64_t{items[0].size()} * items[1].size();
+}
+
+template <class Items>
+bool are_few_pairs(const Items& items) {
+    const bool few = items[0].size() + items[1].size() <= few_items;
+    return pairs_of(items) <= (few ? pairs_of_few : few_pairs);
 }
 
 // So that no other cell lists it.
@@ -99,7 +107,7 @@ bool CrossedFacetsFinder::solve(Cell& cell) {
     ++stats_->cells;
     check_budget(options_, *stats_);
     if (!leave_out(cell)) return true;
-    if (pairs_of(cell.items) <= few_pairs) return compare(cell);
+    if (are_few_pairs(cell.items)) return compare(cell);
     const Splitter splitter = splitter_of(cell);
     const bool stalls = splitter.part_left > worthy_part_of_pairs;
     if (stalls && cell.stalled) return compare(cell);

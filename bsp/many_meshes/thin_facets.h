@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Shapes of facets: whether most are long and thin.
+// Facets that are long and thin.
 #pragma once
 
 #include <span>
