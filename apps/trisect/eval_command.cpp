@@ -11,6 +11,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -19,6 +20,7 @@
 
 #include "certificate.h"
 #include "commands.h"
+#include "eval_model.h"
 #include "mesh_files.h"
 #include "output_name.h"
 #include "values.h"
@@ -46,31 +48,51 @@ bool is_mesh(const std::string& output) {
 
 /// Checks the triangles as the format holds them, and divides those that edges lie in. Faces of
 /// STEP are written as they are.
-EvalCertificate certified(const Session& session, const EvalOptions& options,
-                          const ExactMesh& exact, PolygonMesh& mesh) {
+EvalCertificate certified(const Session& session, const EvalOptions& options, ExactMesh& exact,
+                          PolygonMesh& mesh) {
     EvalCertificate out;
     if (!options.certificate || !is_mesh(options.output)) return out;
     const MeshFormat format = output_format(session, options.output);
     out.certificate = certify_output(exact, mesh, format);
     if (format == MeshFormat::Step) return out;
     const std::size_t before = mesh.face_count();
-    std::vector<FaceSource> no_sources;
-    if (divide_output(mesh, no_sources, *out.certificate, format))
+    if (divide_output(mesh, exact.source, *out.certificate, format))
         out.divided = mesh.face_count() - before;
     return out;
 }
 
+/// Whether the output shows what color() says.
+bool keeps_colors(const Session& session, const EvalOptions& options, const CsgTree& tree) {
+    return is_mesh(options.output) && has_colors(tree) &&
+           holds_colors(output_format(session, options.output));
+}
+
+void write_colored(Session& session, const std::string& output, MeshFormat format,
+                   const PolygonMesh& mesh, std::span<const FaceSource> sources,
+                   const CsgReport& report) {
+    write_output_model(session, output, format, colored_model(mesh, sources, report, "model"),
+                       holds_properties(format));
+}
+
+/// `sources`: of the mesh's faces.
 void write_result(Session& session, const std::string& output, const Solid& solid,
-                  const PolygonMesh& mesh) {
+                  const PolygonMesh& mesh, std::span<const FaceSource> sources,
+                  const CsgReport& report) {
     if (has_native_name(output)) return write_native_output(session, output, solid);
     if (has_exact_boundary(output))
         return session.write_output(output, exact_text(solid.to_brep()));
     const MeshFormat format = output_format(session, output);
-    if (format == MeshFormat::Step)
-        write_output_mesh(session, output, format,
-                          output_polygons(solid.to_brep(), format, nullptr));
-    else
+    const bool has_color = !report.color_of_source.empty() && holds_colors(format);
+    if (format == MeshFormat::Step) {
+        MeshMap map;
+        const PolygonMesh polygons = output_polygons(solid.to_brep(), format, &map);
+        if (has_color) return write_colored(session, output, format, polygons, map.source, report);
+        write_output_mesh(session, output, format, polygons);
+    } else if (has_color) {
+        write_colored(session, output, format, mesh, sources, report);
+    } else {
         write_output_mesh(session, output, format, mesh);
+    }
 }
 
 // A file as it was when this was made.
@@ -161,9 +183,11 @@ Outcome eval_again(Session& session, const EvalOptions& options, CsgSession& kep
     const Solid solid = session.interruptible_stage(
         "evaluate", [&] { return kept.evaluate(tree, &report, &change); });
     say_remarks(session, report);
-    const PolygonMesh mesh =
-        session.interruptible_stage("assemble", [&] { return solid.to_mesh(); });
-    session.stage("write", [&] { write_result(session, options.output, solid, mesh); });
+    const ExactMesh exact =
+        session.interruptible_stage("assemble", [&] { return solid.to_exact_mesh(); });
+    const PolygonMesh mesh = to_polygon_mesh(exact);
+    session.stage(
+        "write", [&] { write_result(session, options.output, solid, mesh, exact.source, report); });
     Outcome out;
     out.document = document_of(options, report);
     out.document["triangles"] = mesh.face_count();
@@ -192,6 +216,8 @@ Outcome watch(Session& session, const EvalOptions& options) {
     CsgOptions how;
     how.evaluate = session.evaluation_options(OperandOptions());
     how.missing_files_are_empty = options.missing_files_are_empty;
+    how.keeps_colors =
+        is_mesh(options.output) && holds_colors(output_format(session, options.output));
     CsgSession kept(how);
     Outcome last;
     try {
@@ -238,13 +264,14 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         CsgOptions how;
         how.evaluate = session.evaluation_options(OperandOptions());
         how.missing_files_are_empty = options.missing_files_are_empty;
+        how.keeps_colors = keeps_colors(session, options, tree);
         return evaluate_csg(tree, how, &report);
     });
     say_remarks(session, report);
     Outcome out;
     out.document = document_of(options, report);
     // Assembled once: measures and the output take the same triangles.
-    const ExactMesh mesh = session.interruptible_stage("measure", [&] {
+    ExactMesh mesh = session.interruptible_stage("measure", [&] {
         ExactMesh boundary = solid.to_exact_mesh();
         out.document["triangles"] = boundary.triangles.size();
         out.document["volume"] = volume(boundary);
@@ -256,7 +283,9 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
     say_certificate(session, options, made);
     out.document["certificate"] = made.certificate ? to_json(*made.certificate) : Json();
     out.document["divided"] = made.divided;
-    session.stage("write", [&] { write_result(session, options.output, solid, rounded); });
+    session.stage("write", [&] {
+        write_result(session, options.output, solid, rounded, mesh.source, report);
+    });
     out.document["seconds"] = session.seconds();
     if (options.summary) out.remarks = summary_of(report, out.document);
     return out;

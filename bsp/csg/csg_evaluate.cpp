@@ -15,7 +15,10 @@ Solid evaluate_csg(const CsgTree& tree, const CsgOptions& options, CsgReport* re
     const detail::CsgProgram program(tree);
     out.is_flat = program.dimension() == 2;
     detail::CsgKept kept;
-    return detail::CsgEvaluator(program, options, out, kept).run();
+    Solid solid = detail::CsgEvaluator(program, options, out, kept).run();
+    out.colors = kept.colors();
+    out.color_of_source = kept.color_of_source();
+    return solid;
 }
 
 }  // namespace trisect

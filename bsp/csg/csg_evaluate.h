@@ -3,8 +3,11 @@
 // Evaluation of programs in OpenSCAD's evaluated form, exactly.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +18,9 @@
 
 namespace trisect {
 
+/// Red, green, blue and opacity, 0 to 1.
+using CsgColor = std::array<double, 4>;
+
 struct CsgOptions {
     EvaluateOptions evaluate = {};
     /// Where relative names of import() and surface() start; nothing: that of CsgTree::file.
@@ -22,6 +28,8 @@ struct CsgOptions {
     bool reads_files = true;  ///< otherwise import() and surface() are refused
     /// A file that is not there is an empty set, with a remark, as in OpenSCAD; otherwise an error.
     bool missing_files_are_empty = false;
+    /// Whether the report has colours of faces; shapes of two colours are two operands then.
+    bool keeps_colors = false;
 };
 
 struct CsgReport {
@@ -30,6 +38,11 @@ struct CsgReport {
     std::size_t meshes = 0;       ///< of them, different ones: equal shapes are made once
     std::size_t evaluations = 0;  ///< formulas; one, but for turned groups, hulls and extrusions
     bool is_flat = false;         ///< the program describes a region of the plane
+    /// Colours of faces by FaceSource::operand, as numbers of `colors`, where they are kept. As in
+    /// OpenSCAD an outer color() counts for all that is in it. What was made of children as a
+    /// whole (a hull, an extrusion) has the colour that it stands in.
+    std::vector<CsgColor> colors;
+    std::map<std::uint32_t, std::uint32_t> color_of_source;
     std::vector<std::string> remarks;  ///< what was left out, with its place; the first hundred
 };
 

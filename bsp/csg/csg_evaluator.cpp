@@ -50,7 +50,9 @@ std::vector<Outline> outlines_of(const CsgNode& node, const CsgArguments& argume
 }  // namespace
 
 Expression CsgEvaluator::formula() {
-    return any_of(program_.roots(), program_.dimension(), CsgFrame());
+    CsgFrame frame;
+    if (options_.keeps_colors) frame.color = CsgFrame::no_color;
+    return any_of(program_.roots(), program_.dimension(), frame);
 }
 
 // What is made of children, as a whole, for the next program.
@@ -97,7 +99,7 @@ Expression CsgEvaluator::children_of(std::uint32_t n, const CsgFrame& frame) {
 Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
     switch (program_.kind(n)) {
         case CsgKind::Group:
-            return children_of(n, frame);
+            return group(n, frame);
         case CsgKind::Difference:
             return difference(n, frame);
         case CsgKind::Intersection:
@@ -126,6 +128,32 @@ Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
             break;
     }
     return Solid();
+}
+
+/// The outermost colour counts. Regions of it are one solid, which has a name.
+Expression CsgEvaluator::group(std::uint32_t n, const CsgFrame& frame) {
+    if (frame.color != CsgFrame::no_color || program_.node(n).name != "color")
+        return children_of(n, frame);
+    const CsgArguments in = program_.arguments(n);
+    const CsgValue* const value = in.first();
+    if (value == nullptr || value->list() == nullptr || value->list()->size() < 4)
+        return children_of(n, frame);
+    const std::vector<double> numbers = in.numbers(*value, 4);
+    if (std::ranges::any_of(numbers, [](double x) { return x < 0; })) return children_of(n, frame);
+    CsgFrame inner = frame;
+    inner.color = kept_.number_of({numbers[0], numbers[1], numbers[2], numbers[3]});
+    if (program_.dimension(n) != 2) return children_of(n, inner);
+    return kept_formula(
+        n, inner, [&]() -> Expression { return tinted(solid_of(children_of(n, inner)), inner); });
+}
+
+/// The same set with the colour, as a source of its own: for what has faces of many sources, and
+/// for prisms over regions, which have none before they are cut.
+Solid CsgEvaluator::tinted(const Solid& solid, const CsgFrame& frame) {
+    if (frame.color < 0 || solid.is_empty()) return solid;
+    Solid out = Solid::from_brep(solid.to_brep());
+    kept_.note_color(out.source_id(), frame.color);
+    return out;
 }
 
 Expression CsgEvaluator::difference(std::uint32_t n, const CsgFrame& frame) {
@@ -159,8 +187,9 @@ Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const Csg
         remark(n, "left out, since the matrix makes it flat");
         return Solid();
     }
-    if (changes_axes(map) || is_single(n)) return children_of(n, {map, frame.low, frame.high});
-    const CsgFrame straight{AffineMap(), frame.low, frame.high};
+    if (changes_axes(map) || is_single(n))
+        return children_of(n, {map, frame.low, frame.high, frame.color});
+    const CsgFrame straight{AffineMap(), frame.low, frame.high, frame.color};
     const std::string key = csg_key(program_, n, straight, true);
     return kept_formula(n, frame, [&]() -> Expression {
         const Solid* known = kept_.solid(key);
@@ -172,7 +201,7 @@ Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const Csg
     });
 }
 
-Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map) {
+Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const CsgFrame& frame) {
     if (mesh.face_count() == 0) {
         remark(n, "is empty");
         return {};
@@ -180,8 +209,11 @@ Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const Affin
     SolidOptions options;
     options.embedding = Embedding::Check;
     return at_node(n, [&] {
-        return map == AffineMap() ? Solid::from_mesh(mesh, options)
-                                  : Solid::from_mesh(transformed(mesh, map), options);
+        Solid out = frame.map == AffineMap()
+                        ? Solid::from_mesh(mesh, options)
+                        : Solid::from_mesh(transformed(mesh, frame.map), options);
+        kept_.note_color(out.source_id(), frame.color);
+        return out;
     });
 }
 
@@ -222,7 +254,7 @@ Expression CsgEvaluator::shape(std::uint32_t n, const CsgFrame& frame) {
     const std::string key = csg_key(program_, n, frame);
     if (const Solid* known = kept_.solid(key)) return *known;
     ++report_.meshes;
-    return kept_.keep(key, placed(n, mesh_of(n), frame.map));
+    return kept_.keep(key, placed(n, mesh_of(n), frame));
 }
 
 Drawing CsgEvaluator::drawing_of(std::uint32_t n) {
@@ -283,14 +315,20 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
         return Solid();
     }
     const double low = in.truth("center", false) ? -height / 2 : 0;
-    if (is_straight(in)) return resolved(flat_content(n, {frame.map, low, low + height}));
+    if (is_straight(in)) {
+        const CsgFrame slab{frame.map, low, low + height};
+        if (frame.color < 0) return resolved(flat_content(n, slab));
+        return kept_formula(n, frame, [&]() -> Expression {
+            return tinted(solid_of(flat_content(n, slab)), frame);
+        });
+    }
     return kept_formula(n, frame, [&]() -> Expression {
-        return placed(n, csg_twisted(base_of(n), in, low, low + height), frame.map);
+        return placed(n, csg_twisted(base_of(n), in, low, low + height), frame);
     });
 }
 
 Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
-    return placed(n, csg_revolved(base_of(n), program_.arguments(n)), frame.map);
+    return placed(n, csg_revolved(base_of(n), program_.arguments(n)), frame);
 }
 
 /// Of regions that lie in one plane one solid is left, so that what is flat in a program of solids
@@ -311,7 +349,7 @@ Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {
     double high = 1;
     for (const std::uint32_t c : program_.used_children(n)) {
         if (program_.dimension(c) != 0 && program_.dimension(c) != program_.dimension(n)) continue;
-        const Solid solid = solid_of(expression_of(c, frame));
+        const Solid solid = solid_of(expression_of(c, {frame.map, frame.low, frame.high}));
         if (const auto flat = flat_outlines(solid)) {
             flats.insert(flats.end(), flat->points.begin(), flat->points.end());
             low = flat->low;
@@ -323,10 +361,13 @@ Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {
     }
     if (points.empty() && flats.empty()) return Solid();
     if (points.empty())
-        return flat_prism(std::array{hull_of_points(flats)}, OutlineRule::Positive, low, high);
+        return tinted(
+            flat_prism(std::array{hull_of_points(flats)}, OutlineRule::Positive, low, high), frame);
     for (const auto& [x, y] : flats)
         for (const double z : {low, high}) points.push_back({x, y, z});
-    return at_node(n, [&] { return placed(n, make_hull(points), AffineMap()); });
+    return at_node(n, [&] {
+        return placed(n, make_hull(points), {AffineMap(), frame.low, frame.high, frame.color});
+    });
 }
 
 }  // namespace trisect::detail

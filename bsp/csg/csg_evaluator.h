@@ -40,6 +40,8 @@ private:
                                                    int dimension, const CsgFrame& frame);
     [[nodiscard]] Expression any_of(const std::vector<std::uint32_t>& children, int dimension,
                                     const CsgFrame& frame);
+    [[nodiscard]] Expression group(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Solid tinted(const Solid& solid, const CsgFrame& frame);
     [[nodiscard]] Expression children_of(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression expression_of(std::uint32_t n, const CsgFrame& frame);
     template <class Make>
@@ -63,7 +65,7 @@ private:
             program_.arguments(n).fail(e.code(), e.what());
         }
     }
-    [[nodiscard]] Solid placed(std::uint32_t n, const PolygonMesh& mesh, const AffineMap& map);
+    [[nodiscard]] Solid placed(std::uint32_t n, const PolygonMesh& mesh, const CsgFrame& frame);
     [[nodiscard]] PolygonMesh mesh_of(std::uint32_t n);
     [[nodiscard]] Expression shape(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression region(std::uint32_t n, const CsgFrame& frame);

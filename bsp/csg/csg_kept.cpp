@@ -40,6 +40,17 @@ const Expression& CsgKept::keep_formula(const std::string& key, const Expression
     return now_.formulas.emplace(key, formula).first->second;
 }
 
+std::int32_t CsgKept::number_of(const CsgColor& color) {
+    const auto at = std::ranges::find(colors_, color);
+    if (at != colors_.end()) return static_cast<std::int32_t>(at - colors_.begin());
+    colors_.push_back(color);
+    return static_cast<std::int32_t>(colors_.size()) - 1;
+}
+
+void CsgKept::note_color(std::uint32_t source, std::int32_t color) {
+    if (color >= 0) color_of_source_[source] = static_cast<std::uint32_t>(color);
+}
+
 CsgKept::FileState CsgKept::state_of(const std::filesystem::path& file) {
     std::error_code none;
     FileState state;

@@ -7,9 +7,12 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
+
+#include <trisect/bsp/csg/csg_evaluate.h>
 
 namespace trisect::detail {
 
@@ -28,6 +31,15 @@ public:
     [[nodiscard]] const Expression* formula(const std::string& key);
     const Solid& keep(const std::string& key, const Solid& solid);
     const Expression& keep_formula(const std::string& key, const Expression& formula);
+    /// Its number. Colours of earlier programs stay, as what is kept has them.
+    std::int32_t number_of(const CsgColor& color);
+    [[nodiscard]] const std::vector<CsgColor>& colors() const { return colors_; }
+    /// What CsgReport::color_of_source says.
+    void note_color(std::uint32_t source, std::int32_t color);
+    [[nodiscard]] const std::map<std::uint32_t, std::uint32_t>& color_of_source() const {
+        return color_of_source_;
+    }
+
     void note_file(const std::filesystem::path& file);
     [[nodiscard]] bool have_files_changed() const;
 
@@ -44,6 +56,8 @@ private:
     [[nodiscard]] static FileState state_of(const std::filesystem::path& file);
 
     bool across_programs_;
+    std::vector<CsgColor> colors_;
+    std::map<std::uint32_t, std::uint32_t> color_of_source_;
     Made now_;
     Made before_;
     std::map<std::filesystem::path, FileState> files_;

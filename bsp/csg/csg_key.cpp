@@ -46,6 +46,7 @@ std::string csg_key(const CsgProgram& program, std::uint32_t n, const CsgFrame& 
         for (const double c : row) add_number(key, c);
     add_number(key, frame.low);
     add_number(key, frame.high);
+    if (frame.color != CsgFrame::fixed_color) add_number(key, frame.color);
     add_node(key, program, n, children_only);
     return key;
 }

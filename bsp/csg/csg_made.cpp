@@ -47,6 +47,10 @@ std::array<double, 3> factors_of(const CsgArguments& in, const Bounds& box, int 
 
 Expression CsgEvaluator::made(std::uint32_t n, const CsgFrame& frame) {
     const std::string key = csg_key(program_, n, CsgFrame());
+    if (frame.color >= 0) {
+        const CsgFrame plain{frame.map, frame.low, frame.high};
+        return tinted(solid_of(made(n, plain)), frame);
+    }
     const Solid* known = kept_.solid(key);
     const Solid solid =
         known != nullptr ? *known : kept_.keep(key, at_node(n, [&] { return made_at_origin(n); }));
@@ -61,7 +65,7 @@ Expression CsgEvaluator::made(std::uint32_t n, const CsgFrame& frame) {
             return *std::move(moved);
     }
     const PlaneRegion region = region_of_faces(solid, 1);
-    return placed(n, prism_of_region(region, frame.low, frame.high), frame.map);
+    return placed(n, prism_of_region(region, frame.low, frame.high), frame);
 }
 
 Solid CsgEvaluator::made_at_origin(std::uint32_t n) {

@@ -30,6 +30,8 @@ Solid CsgSession::evaluate(const CsgTree& tree, CsgReport* report, ChangeReport*
     kept_->made.begin();
     const Expression formula = detail::CsgEvaluator(program, options_, out, kept_->made).formula();
     ++out.evaluations;
+    out.colors = kept_->made.colors();
+    out.color_of_source = kept_->made.color_of_source();
     return kept_->formula.evaluate(formula, change);
 }
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <trisect/brep/io/read_model.h>
+
+#include <array>
+#include <cmath>
+#include <map>
 #include <string>
 
 #include "process.h"
@@ -44,6 +49,68 @@ TEST_F(EvalCommand, AFaceIsDividedWhereAnEdgeLiesInIt) {
         trisect({"eval", roof, "-o", path("roof.off"), "--json", "--no-certificate"}).json();
     EXPECT_TRUE(without["certificate"].is_null());
     EXPECT_EQ(without["divided"], 0);
+}
+
+// Areas of faces by colour, "" for those without one.
+std::map<std::string, double> areas_by_color(const std::string& file, bool properties) {
+    trisect::ReadOptions options;
+    options.properties = properties;
+    const trisect::Model model = trisect::read_model(file, options);
+    std::map<std::string, double> out;
+    for (const trisect::ModelPart& part : model.parts)
+        for (std::size_t f = 0; f < part.mesh.face_count(); ++f) {
+            const auto face = part.mesh.face(f);
+            const auto& o = part.mesh.points[face[0]];
+            std::array<double, 3> sum{};
+            for (std::size_t i = 1; i + 1 < face.size(); ++i)
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const auto& a = part.mesh.points[face[i]];
+                    const auto& b = part.mesh.points[face[i + 1]];
+                    const std::size_t u = (k + 1) % 3;
+                    const std::size_t v = (k + 2) % 3;
+                    sum[k] += ((a[u] - o[u]) * (b[v] - o[v]) - (a[v] - o[v]) * (b[u] - o[u])) / 2;
+                }
+            const std::uint32_t m =
+                part.materials.empty() ? trisect::no_material : part.materials[f];
+            std::string color;
+            if (m != trisect::no_material && model.materials[m].color)
+                for (const std::uint8_t c : *model.materials[m].color)
+                    color += std::to_string(c) + ' ';
+            out[color] += std::hypot(sum[0], sum[1], sum[2]);
+        }
+    return out;
+}
+
+// Boxes of two heights in a row, regions between them, a hull, what is turned by 3-4-5, and what
+// has no colour; the inner colour of the first one does not count.
+TEST_F(EvalCommand, ColorsAreThoseOfFaces) {
+    const std::string file = write("colors.csg", R"(
+color([1, 0, 0, 1]) { cube(size = [2, 2, 2]); color([0, 1, 0, 1]) {
+    multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,2],[0,0,0,1]]) { cube(size = [2, 2, 1]); } } }
+color([0, 0, 1, 0.2]) { linear_extrude(height = 2) {
+    multmatrix([[1,0,0,2],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { square(size = [1, 2]); } } }
+color([0, 1, 1, 1]) { multmatrix([[0.6,-0.8,0,20],[0.8,0.6,0,0],[0,0,1,0],[0,0,0,1]]) {
+    difference() { cube(size = [5, 5, 5]); cube(size = [5, 5, 1]); } } }
+multmatrix([[0.6,-0.8,0,40],[0.8,0.6,0,0],[0,0,1,0],[0,0,0,1]]) { union() {
+    color([1, 1, 0, 1]) { hull() { cube(size = 5); } }
+    color([-1, -1, -1, 1]) {
+        multmatrix([[1,0,0,5],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) { cube(size = 5); } } } }
+)");
+    const std::map<std::string, double> expected{{"", 125},
+                                                 {"255 0 0 255 ", 4 + 4 + 6 * 3 + 2},
+                                                 {"0 0 255 51 ", 2 + 2 + 4 + 2 + 2},
+                                                 {"0 255 255 255 ", 50 + 80},
+                                                 {"255 255 0 255 ", 125}};
+    for (const std::string name : {"c.3mf", "c.glb", "c.obj", "c.ply"}) {
+        const Finished run = trisect({"eval", file, "-o", path(name), "--json"});
+        ASSERT_EQ(run.code, 0) << name << run.err;
+        const auto found = areas_by_color(path(name), name == "c.obj" || name == "c.ply");
+        EXPECT_EQ(found.size(), expected.size()) << name;
+        for (const auto& [color, area] : expected) {
+            ASSERT_TRUE(found.contains(color)) << name << ' ' << color;
+            EXPECT_NEAR(found.at(color), area, 1e-4) << name << ' ' << color;
+        }
+    }
 }
 
 TEST_F(EvalCommand, StreamsAndSummary) {

@@ -113,12 +113,14 @@ Nef sum_by_cgal(const Operand& a, const Operand& b) {
     return CGAL::minkowski_sum_3(first, second);
 }
 
-// What is left of `a` without the sum of its surroundings, in a box, and `b` turned about.
+// Where `b` can be moved: nowhere in the sum of the surroundings of `a`, in a box, and `b` turned
+// about. That need not be in `a`, unless `b` has the origin.
 Nef difference_by_cgal(const Operand& a, const Operand& b) {
-    const Nef whole = reference::to_nef(a);
-    Nef around = reference::to_nef(reference::box({-200, -200, -200}, {200, 200, 200})) - whole;
+    Nef around = reference::to_nef(reference::box({-200, -200, -200}, {200, 200, 200})) -
+                 reference::to_nef(a);
     Nef turned = reference::to_nef(turned_about(b));
-    return whole - CGAL::minkowski_sum_3(around, turned);
+    const Nef everywhere = reference::to_nef(reference::box({-100, -100, -100}, {100, 100, 100}));
+    return everywhere - CGAL::minkowski_sum_3(around, turned);
 }
 
 class Campaign {

@@ -66,6 +66,14 @@ TEST(Minkowski, DifferencesUndoSumsOfBoxes) {
     EXPECT_TRUE(minkowski_difference(b, a).is_empty());
 }
 
+// modelling_sets --seed 20261128 --hulls 4000 --sums 3000 --only 4036, whose oracle took what is in
+// the first box.
+TEST(Minkowski, ADifferenceIsBesideTheFirstWhereTheSecondIsBesideTheOrigin) {
+    const Solid a = box({11, 10, 4}, {15, 13, 11});
+    const Solid places = minkowski_difference(a, box({3, 3, 7}, {4, 5, 10}));
+    EXPECT_TRUE(evaluate(places ^ box({8, 7, -3}, {11, 8, 1})).is_empty());
+}
+
 TEST(Minkowski, TurnedBoxesAreConvexWithinRounding) {
     const AffineMap turn = AffineMap::rotation({1, 2, 3}, 33);
     const Solid a = transformed(box({0, 0, 0}, {1, 1, 1}), turn);
