@@ -25,6 +25,7 @@ constexpr std::array harmless{DefectKind::DuplicatePoint, DefectKind::UnusedPoin
 bool is_valid(const LatticeMesh& mesh) {
     ValidateOptions options;
     options.list_limit = 0;
+    options.until_first = true;
     options.pair_limit = detail::pair_limit_of(mesh.triangles.size());
     try {
         const ValidationReport report = validate(mesh, options);

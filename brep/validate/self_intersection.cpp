@@ -34,15 +34,15 @@ struct FoundPair {
     }
 };
 
-std::vector<FoundPair> find_pairs(const CheckedMesh& m, std::uint64_t pair_limit) {
+std::vector<FoundPair> find_pairs(const CheckedMesh& m, const ValidateOptions& options) {
     const PreparedMesh& mesh = m.mesh;
     TriangleTree tree(mesh.points, mesh.triangles, find_sheets(mesh));
     std::vector<FoundPair> found;
     std::uint64_t pairs = 0;
     tree.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
         check_stop();
-        if (++pairs > pair_limit)
-            throw LimitError("validation stopped after " + std::to_string(pair_limit) +
+        if (++pairs > options.pair_limit)
+            throw LimitError("validation stopped after " + std::to_string(options.pair_limit) +
                              " pairs of faces");
         std::uint32_t fa = mesh.face_of_triangle[a];
         std::uint32_t fb = mesh.face_of_triangle[b];
@@ -56,7 +56,7 @@ std::vector<FoundPair> find_pairs(const CheckedMesh& m, std::uint64_t pair_limit
         if (found.size() > found_limit)
             throw LimitError("validation stopped after " + std::to_string(found_limit) +
                              " intersecting pairs of triangles");
-        return true;
+        return !options.until_first;
     });
     // One report for a pair of faces, the worst one.
     std::sort(found.begin(), found.end(),
@@ -92,7 +92,7 @@ Defect describe(const CheckedMesh& m, const FoundPair& p, DefectKind kind) {
 void check_self_intersections(const CheckedMesh& m, const ValidateOptions& options,
                               ValidationReport& report) {
     if (!options.self_intersection) return;
-    for (const FoundPair& p : find_pairs(m, options.pair_limit)) {
+    for (const FoundPair& p : find_pairs(m, options)) {
         const auto kind = p.touch_only ? DefectKind::FacesTouch : DefectKind::SelfIntersection;
         report.add(kind, [&] { return describe(m, p, kind); });
     }

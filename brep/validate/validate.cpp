@@ -40,8 +40,10 @@ ValidationReport run_checks(const CheckedMesh& m, const ValidateOptions& options
                              detail::check_non_simple_faces, detail::check_duplicate_faces}) {
         detail::check_stop(m.mesh.triangles.size());
         check(m, report);
+        if (options.until_first && !report.empty()) return report;
     }
     detail::check_self_intersections(m, options, report);
+    if (options.until_first && !report.empty()) return report;
     for (const auto check : {detail::check_duplicate_points, detail::check_unused_points,
                              detail::check_shells, detail::check_emptiness}) {
         detail::check_stop();

@@ -34,6 +34,8 @@ struct ValidateOptions {
     bool self_intersection = true;
     /// Pairs of triangles that check may look at before it gives up with a LimitError.
     std::uint64_t pair_limit = std::uint64_t{1} << 28;
+    /// End when a defect of the faces was found, without the checks that come after it.
+    bool until_first = false;
 };
 
 /// All checks. Indices in the report are those of the mesh (for equal points, the first one's).

@@ -209,18 +209,15 @@ Point3d to_doubles(const std::array<mpq_class, 3>& p) {
     return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
 }
 
-double sign_between(const std::array<Point3d, 3>& a, const std::array<Point3d, 3>& b) {
-    double dot = 0;
+bool has_area(const Point3d& a, const Point3d& b, const Point3d& c) {
+    double square = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t u = (i + 1) % 3;
         const std::size_t v = (i + 2) % 3;
-        const auto normal = [&](const std::array<Point3d, 3>& t) {
-            return (t[1][u] - t[0][u]) * (t[2][v] - t[0][v]) -
-                   (t[1][v] - t[0][v]) * (t[2][u] - t[0][u]);
-        };
-        dot += normal(a) * normal(b);
+        const double normal = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+        square += normal * normal;
     }
-    return dot;
+    return square > 0;
 }
 
 // The nearest doubles, and how far they are from the exact points.
@@ -253,12 +250,7 @@ PolygonMesh rounded_mesh(const ExactMesh& mesh, const Pose& pose, bool turn_over
     PolygonMesh out;
     out.points = rounded_points(exact, report);
     for (const auto& t : mesh.triangles) {
-        const auto corners = [&](const auto& point) {
-            return std::array{point(t[0]), point(t[1]), point(t[2])};
-        };
-        const auto before = corners([&](std::uint32_t v) { return to_doubles(exact[v]); });
-        const auto after = corners([&](std::uint32_t v) { return out.points[v]; });
-        if (!(sign_between(before, after) > 0)) ++report.flipped_faces;
+        if (!has_area(out.points[t[0]], out.points[t[1]], out.points[t[2]])) ++report.flipped_faces;
         out.add_triangle(t[0], t[turn_over ? 2 : 1], t[turn_over ? 1 : 2]);
     }
     return out;
