@@ -98,9 +98,12 @@ void expect_agreement(const std::vector<Operand>& operands, const Expression& ex
     ++count.without_tree;
     try {
         const auto expected = reference::evaluate(operands, expression);
-        EXPECT_EQ(engines::difference(trisect::detail::assemble_brep(*state, {}),
-                                      reference::canonical_boundary(expected.cells)),
-                  "");
+        const trisect::Brep brep = trisect::detail::assemble_brep(*state, {});
+        EXPECT_EQ(engines::difference(brep, reference::canonical_boundary(expected.cells)), "");
+        // Also the edges in which faces go straight across each other.
+        const trisect::BrepCounts of_cells = by_cells(formula).to_brep().counts();
+        EXPECT_EQ(brep.counts().edges, of_cells.edges);
+        EXPECT_EQ(brep.counts().faces, of_cells.faces);
         if (const auto mesh = mesh_of(*state)) {
             EXPECT_EQ(engines::open_edge(*mesh), "");
         }
