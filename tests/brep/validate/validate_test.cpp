@@ -254,6 +254,16 @@ bool pierces(LatticePoint p, LatticePoint q, const std::array<LatticePoint, 3>& 
     return a != 0 && a == b && b == c;
 }
 
+TEST(Validate, EndsAtTheFirstDefectWhereThatIsAskedFor) {
+    const auto crossing = together(cuboid({0, 0, 0}, {4, 4, 4}), cuboid({1, 1, 1}, {3, 3, 9}));
+    ValidateOptions options;
+    const std::size_t all = validate(crossing, options).count(DefectKind::SelfIntersection);
+    options.until_first = true;
+    EXPECT_GT(all, 1U);
+    EXPECT_EQ(validate(crossing, options).count(DefectKind::SelfIntersection), 1U);
+    EXPECT_TRUE(validate(cuboid({0, 0, 0}, {4, 4, 4}), options).empty());
+}
+
 TEST(TriangleContact, ProperCrossingsAgreeWithOrientationSigns) {
     std::mt19937 random(7);  // NOLINT
     const auto coordinate = [&] { return static_cast<std::int64_t>(random() % 9); };
