@@ -37,6 +37,7 @@ class Site:
         self.stage = stage
         self.sources: set[str] = set()
         self.places: dict[str, str] = {}
+        self.listed: set[str] = set()
         for page in sorted((repository / "docs").glob("*.md")):
             self.places[f"docs/{page.name}"] = f"guide/{page.name}"
         for page in sorted((repository / "docs/site").glob("*.md")):
@@ -51,6 +52,9 @@ class Site:
         for page, place in self.places.items():
             if pathlib.Path(place).name not in MADE:
                 self.put(page, place)
+        for page in self.places:
+            if page.startswith("docs/") and page != "docs/site/index.md" and page not in self.listed:
+                raise SystemExit(f"{page}: no table of contents in docs/site/index.md has this page")
         self.put_results()
         for source in sorted(self.sources):
             self.put_source(source)
@@ -77,6 +81,7 @@ class Site:
         found = self.resolved(page, target + ".md")
         if found not in self.places:
             raise SystemExit(f"{page}: there is no page {target}")
+        self.listed.add(found)
         path = os.path.relpath(self.places[found], os.path.dirname(place) or ".")
         path = path.removesuffix(".md")
         return f"{named[1]} <{path}>" if named else path
