@@ -39,6 +39,29 @@ def amf_text():
             '</color></material></amf>')
 
 
+def short_models():
+    """Model parts of a few hundred bytes, each with one feature: longer ones take their time."""
+    mesh = ('<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices>'
+            '<triangles><triangle v1="0" v2="1" v3="2"%s/></triangles></mesh>')
+    with_material = mesh % ' pid="3" p1="0"'
+    head = f'<model xmlns="{CORE}"><resources>'
+    build = '</resources><build><item objectid="%d"/></build></model>'
+    return [f'{head}<object id="1">{mesh % ""}</object>' + build % 1,
+            f'{head}<object id="1">{mesh % ""}</object><object id="2"><components><component objectid="1" '
+            'transform="0 1 0 -1 0 0 0 0 1 1 2 3"/></components></object>' + build % 2,
+            f'{head}<basematerials id="3"><base name="m" displaycolor="#FF0000"/></basematerials><object id="1" pid="3" '
+            f'pindex="0">{with_material}</object>' + build % 1]
+
+
+def short_amf():
+    point = '<vertex><coordinates><x>%d</x><y>%d</y><z>0</z></coordinates></vertex>'
+    vertices = ''.join(point % p for p in ((0, 0), (1, 0), (0, 1)))
+    face = '<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>'
+    mesh = f'<object id="1"><mesh><vertices>{vertices}</vertices>{face}</mesh></object>'
+    return [f'<amf>{mesh}</amf>', f'<amf unit="inch">{mesh}<constellation id="2"><instance objectid="1"><rz>9</rz></instance>'
+            '</constellation></amf>']
+
+
 def glb(document, binary):
     text = json.dumps(document, separators=(',', ':')).encode()
     text += b' ' * (-len(text) % 4)
@@ -119,6 +142,7 @@ def main():
     seeds = [(GLB, glb_file(False)), (GLB, glb_file(True)), (AMF, amf_text().encode()), (MODEL, model_text().encode()),
              (PACKAGE, package(zipfile.ZIP_STORED)), (PACKAGE, package(zipfile.ZIP_DEFLATED)), (STEP, step_text(False).encode()),
              (STEP, step_text(True).encode()), (DXF, dxf_text().encode())]
+    seeds += [(MODEL, text.encode()) for text in short_models()] + [(AMF, text.encode()) for text in short_amf()]
     for number, (choice, data) in enumerate(seeds):
         (folder / f'seed{number}').write_bytes(bytes([choice]) + data)
 
