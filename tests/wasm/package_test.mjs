@@ -213,7 +213,21 @@ async function testManifest() {
 }
 
 testBefore();
-await trisect.init();
+// The first module alone, then all.
+await trisect.init(undefined, { more: false });
+{
+  const box = Solid.box([0, 0, 0], [1, 1, 1]);
+  assert.equal(box.union(box.translate([0.5, 0, 0])).volume, 1.5);
+  assert.deepEqual([...box.locate([2, 0, 0])], [Location.OUTSIDE]);
+  assert.equal(box.section([0, 0, 1, -0.5]).length, 1);
+  throwsKind('usage', /trisect-more\.wasm/, () => trisect.interfere(box, null, box, null));
+  throwsKind('usage', /trisect-more\.wasm/, () => Solid.fromCsg('cube(1);'));
+  throwsKind('usage', /trisect-more\.wasm/, () => new Scene());
+  throwsKind('usage', /trisect-more\.wasm/, () => box.exactText);
+  await trisect.init();
+  assert.equal(trisect.interfere(box, null, box, null), 'equal');
+}
+await Promise.all([trisect.init(), trisect.init()]);
 console.log(`trisect ${trisect.version()} under node ${process.versions.node}`);
 testSolids();
 testMotions();

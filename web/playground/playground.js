@@ -19,6 +19,7 @@ const shapes = {
 class Playground {
   constructor() {
     this.at = [1, -1, 0.5];
+    this.isWhole = false;
     this.picture = new Picture(byId('view'));
     this.shown = this.picture.add();
     this.ghost = this.picture.add();
@@ -64,17 +65,22 @@ class Playground {
     const result = this.first[byId('operation').value](moved);
     const mesh = result.mesh();
     const time = performance.now() - start;
-    const pose = Pose.translation(this.at);
-    const relation = interfere(this.first, null, this.second, pose);
-    byId('relation').textContent = relation;
     byId('volume').textContent = result.volume;
     byId('triangles').textContent = mesh.faces.length / 3;
-    byId('distance').textContent = relation === 'disjoint' ? distance(this.first, null, this.second, pose).upper.toPrecision(6) : '0';
     byId('time').textContent = `${time.toFixed(1)} ms`;
+    const relation = this.isWhole ? this.relate() : null;
     const ofFirst = new Set();
     if (relation !== 'equal') this.namesOf(this.first, ofFirst);
     this.picture.fill(this.shown, mesh, (t) => [...palette[ofFirst.has(mesh.sources[2 * t]) ? 0 : 1], 1]);
-    for (const object of [moved, result, pose]) object.delete();
+    for (const object of [moved, result]) object.delete();
+  }
+  relate() {
+    const pose = Pose.translation(this.at);
+    const relation = interfere(this.first, null, this.second, pose);
+    byId('relation').textContent = relation;
+    byId('distance').textContent = relation === 'disjoint' ? distance(this.first, null, this.second, pose).upper.toPrecision(6) : '0';
+    pose.delete();
+    return relation;
   }
   /** What sources of results call the operands of a solid. */
   namesOf(solid, names) {
@@ -151,8 +157,12 @@ class Playground {
 }
 
 try {
-  await init();
+  // Solids and booleans are there before relations and programs.
+  await init(undefined, { more: false });
   window.playground = new Playground();
+  await init();
+  window.playground.isWhole = true;
+  window.playground.update();
   document.title = 'Trisect playground: ready';
 } catch (error) {
   byId('error').textContent = error.message;

@@ -27,8 +27,37 @@
 #include <utility>
 #include <vector>
 
+#include "small_sort.h"
+
 // NOLINTBEGIN(cert-dcl58-cpp): names of the standard, in its namespace
 namespace std {
+
+// More special than the sorts of libc++, so taken in their place for arrays, vectors and spans.
+template <class T, class C>
+void sort(T* first, T* last, C less) {
+    trisect_small_sort::sort_unless_sorted(first, last, less);
+}
+template <class T, class C>
+void sort(__wrap_iter<T*> first, __wrap_iter<T*> last, C less) {
+    trisect_small_sort::sort_unless_sorted(to_address(first), to_address(last), less);
+}
+template <class T>
+void sort(T* first, T* last) {
+    std::sort(first, last, __less<T>());
+}
+template <class T>
+void sort(__wrap_iter<T*> first, __wrap_iter<T*> last) {
+    std::sort(to_address(first), to_address(last), __less<T>());
+}
+template <class T, class C>
+void stable_sort(T* first, T* last, C less) requires is_trivially_copyable_v<T> {
+    trisect_small_sort::stable_sort(first, last, less);
+}
+template <class T, class C>
+void stable_sort(__wrap_iter<T*> first, __wrap_iter<T*> last, C less)
+    requires is_trivially_copyable_v<T> {
+    trisect_small_sort::stable_sort(to_address(first), to_address(last), less);
+}
 
 template <class To, class From>
 constexpr To bit_cast(const From& v) noexcept {

@@ -22,6 +22,7 @@ export class TrisectError extends Error {
 }
 
 let exports = null; // of the instance
+let hasAll = false;
 let buffer = null; // its memory, as `view` saw it last
 let view = null;
 const encoder = new TextEncoder();
@@ -56,13 +57,18 @@ const surroundings = {
   },
 };
 
-// Any other function that the C library has an import for: nothing is there.
+function notLoaded() {
+  throw new TrisectError(2, 'this is in trisect-more.wasm: await init() without { more: false } first');
+}
+
+// Any other function that the C library has an import for: nothing is there. In place of functions of the
+// second module are some that say so.
 function importsOf(module) {
   const imports = {};
   for (const { module: from, name, kind } of WebAssembly.Module.imports(module)) {
     if (kind !== 'function') continue;
     imports[from] ??= {};
-    imports[from][name] = surroundings[name] ?? (() => (from === 'env' ? undefined : 52));
+    imports[from][name] = from === 'placeholder' ? notLoaded : surroundings[name] ?? (() => (from === 'env' ? undefined : 52));
   }
   return imports;
 }
@@ -74,7 +80,14 @@ export async function instantiate(module) {
   exports._initialize?.();
 }
 
+/** Puts the functions of the second module into the first one's table. It works on the same memory. */
+export async function instantiateMore(module) {
+  await WebAssembly.instantiate(module, { primary: exports });
+  hasAll = true;
+}
+
 export const isReady = () => exports !== null;
+export const isWhole = () => hasAll;
 
 /** Calls a function of the interface that gives no status. */
 export function ask(name, ...words) {

@@ -2,10 +2,18 @@
 //
 // Types of the package trisect: exact solid modelling in WebAssembly.
 
-/** Where the module is: its bytes, a compiled module, or its address; by default trisect.wasm beside the script. */
+/** Where a module is: its bytes, compiled, or its address. */
 export type ModuleSource = WebAssembly.Module | ArrayBuffer | ArrayBufferView | URL | string;
-/** Loads the module. Await it once, before anything else is called. */
-export function init(source?: ModuleSource): Promise<void>;
+export interface InitOptions {
+  /** Where the second module is, by default trisect-more.wasm beside the script; false: it is not loaded. */
+  more?: ModuleSource | false;
+}
+/**
+ * Loads the module, by default trisect.wasm beside the script, and the second one. Await it once, before anything else is
+ * called. Solids, booleans, meshes, measures, points, rays and sections are in the first module: with { more: false } they
+ * work when less is loaded, all else fails with 'usage', and a later init() adds it.
+ */
+export function init(source?: ModuleSource, options?: InitOptions): Promise<void>;
 /** Of the library, as "0.1.0". */
 export function version(): string;
 

@@ -3,7 +3,7 @@
 // Trisect for JavaScript: solids and what is asked of them, over the C interface in WebAssembly.
 // trisect.d.ts has the types and says what everything means.
 
-import { ask, call, copy, doubles, Handle, instantiate, isReady, made, numberAt, textAt, TrisectError, withMemory, wordAt } from './memory.js';
+import { ask, call, copy, doubles, Handle, instantiate, instantiateMore, isReady, isWhole, made, numberAt, textAt, TrisectError, withMemory, wordAt } from './memory.js';
 
 export { TrisectError };
 
@@ -13,10 +13,10 @@ export const Location = Object.freeze({ OUTSIDE: 0, ON_FACE: 1, ON_EDGE: 2, ON_V
 const relations = ['disjoint', 'touching', 'overlapping', 'inside', 'contains', 'equal'];
 const verdicts = ['equal', 'within', 'different', 'undecided', 'not_closed'];
 
-async function moduleOf(source) {
+async function moduleOf(source, name) {
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
-  const address = new URL(source ?? 'trisect.wasm', import.meta.url);
+  const address = new URL(source ?? name, import.meta.url);
   if (address.protocol === 'file:' && globalThis.process?.versions?.node) {
     const { readFile } = await import('node:fs/promises');
     return WebAssembly.compile(await readFile(address));
@@ -27,13 +27,22 @@ async function moduleOf(source) {
 }
 
 let starting = null;
+let adding = null;
 
-export function init(source) {
-  if (!isReady()) starting ??= moduleOf(source).then(instantiate).catch((error) => {
+export async function init(source, { more } = {}) {
+  if (!isReady()) starting ??= moduleOf(source, 'trisect.wasm').then(instantiate).catch((error) => {
     starting = null;
     throw error;
   });
-  return starting ?? Promise.resolve();
+  if (more !== false && !isWhole()) {
+    // Both are fetched at once, whichever comes first.
+    adding ??= Promise.all([moduleOf(more, 'trisect-more.wasm'), starting]).then(([found]) => instantiateMore(found)).catch((error) => {
+      adding = null;
+      throw error;
+    });
+  }
+  await starting;
+  if (more !== false) await adding;
 }
 
 function usage(message) {
