@@ -54,8 +54,8 @@ void stable_sort(T* first, T* last, C less) requires is_trivially_copyable_v<T> 
     trisect_small_sort::stable_sort(first, last, less);
 }
 template <class T, class C>
-void stable_sort(__wrap_iter<T*> first, __wrap_iter<T*> last, C less)
-    requires is_trivially_copyable_v<T> {
+void stable_sort(__wrap_iter<T*> first, __wrap_iter<T*> last,
+                 C less) requires is_trivially_copyable_v<T> {
     trisect_small_sort::stable_sort(to_address(first), to_address(last), less);
 }
 
