@@ -409,9 +409,11 @@ Side side_of(const Approximation& approximation, const Plane& p, const Plane& q,
                    [&]<class T>(T) { return side_from_sign(sign_at(cramer<T>(p, q, r), plane)); });
 }
 
+namespace {
+
 // Of a coordinate and a denominator, which is positive. In loops: unrolled, its 272 products are 25
 // KB of code.
-static WideInt<33> long_product(const WideInt<17>& a, const WideInt<16>& b) {
+WideInt<33> long_product(const WideInt<17>& a, const WideInt<16>& b) {
     WideInt<33> out;
     for (int i = 0; i < 17; ++i) {
         std::uint64_t carry = 0;
@@ -426,6 +428,8 @@ static WideInt<33> long_product(const WideInt<17>& a, const WideInt<16>& b) {
     if (a.is_negative()) out -= WideInt<33>(b).shifted_left(64 * 17);
     return out;
 }
+
+}  // namespace
 
 std::strong_ordering compare_coordinate(const HomogeneousPoint& a, const HomogeneousPoint& b,
                                         int axis) {

@@ -331,10 +331,10 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
             });
         });
     };
-    const auto tell_root = [&](std::uint32_t v) {
+    const auto mark_root = [&](std::uint32_t v) {
         return sides[v] == Side::Unknown || mark(solid, joined_.root(v), sides[v]);
     };
-    const auto ask_root = [&](std::uint32_t v) {
+    const auto take_side_of_root = [&](std::uint32_t v) {
         const std::uint32_t root = joined_.root(v);
         if (sides[root] == Side::Unknown) {
             const auto open = side_of_part(solid, joined_, root);
@@ -344,7 +344,7 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
         if (sides[v] == Side::Unknown) sides[v] = sides[root];
         return sides[v] == sides[root];
     };
-    return for_each_vertex(tell_root) && for_each_vertex(ask_root);
+    return for_each_vertex(mark_root) && for_each_vertex(take_side_of_root);
 }
 
 // Of vertices that hang together and that nothing separates from the other solid.
