@@ -33,6 +33,7 @@
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/many_meshes/common_part.h>
+#include <trisect/bsp/many_meshes/formula_reach.h>
 #include <trisect/bsp/many_meshes/operand_clusters.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 #include <trisect/bsp/many_meshes/thin_facets.h>
@@ -179,6 +180,22 @@ bool meets_many(std::span<const Box> boxes) {
     const auto met =
         std::ranges::count_if(boxes, [&](const Box& b) { return b.overlaps(*largest); });
     return static_cast<std::size_t>(met) > most_cutters;
+}
+
+// Whether most facets are of operands beside all that the result may have, as in an intersection of
+// what is scattered: cells drop them at once.
+bool are_mostly_beside(const Residual& formula, const SolidStates& solids) {
+    const std::optional<Box> reach = reach_of(formula, solids);
+    if (!reach) return false;
+    if (reach->is_empty()) return true;
+    std::size_t beside = 0;
+    std::size_t all = 0;
+    for (const auto& s : solids) {
+        const std::size_t facets = source_of(*s).facet_count();
+        all += facets;
+        if (!source_of(*s).box().overlaps(*reach)) beside += facets;
+    }
+    return 2 * beside > all;
 }
 
 // Whether two boxes begin or end at one coordinate, or lie about one: then edges of round shapes
@@ -565,10 +582,12 @@ bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
 bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                      const EvaluateSettings& options) {
     if (!may_be_many_meshes(formula, solids, options)) return false;
-    if (crowd_of(solids) != Crowd::None) return true;
+    const Crowd crowd = crowd_of(solids);
+    if (crowd == Crowd::All || crowd == Crowd::InFirst) return true;
     const std::vector<Box> boxes = boxes_of(solids);
-    return do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes)) ||
-           meets_many(boxes) || are_thin(*formula, solids);
+    if (do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes))) return true;
+    if (are_mostly_beside(*formula, solids)) return false;
+    return crowd == Crowd::Near || meets_many(boxes) || are_thin(*formula, solids);
 }
 
 bool do_fill_one_place(const SolidStates& solids) { return crowd_of(solids) == Crowd::All; }
