@@ -29,6 +29,11 @@
 // the triangles of RESULT. Distances of vertices are bounded from above with certified doubles
 // (brep/measure/grid_distance.h).
 //
+// Most results are E with its corners rounded. Where every corner of RESULT is near a vertex, or a
+// point of an edge or face, of the boundary of E, and its triangles moved there cover each face
+// once, the largest move bounds the radius (bsp/verify/corner_match.h), and pieces are looked for
+// only where that fails.
+//
 // The certified radius is an interval [lower, upper]: some point of the closure of D is at least
 // `lower` away from one of the boundaries, no point of D more than `upper` from either. Pieces are
 // cut along the edges of the triangles that they are compared with, until `upper` is at most 3/2 of

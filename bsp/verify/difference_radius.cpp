@@ -323,9 +323,10 @@ public:
         look_at_vertices(whole);
         const std::vector<Component> components = whole.components();
         out_.components = components.size();
+        match_corners();
         for (const Component& c : components) {
             if (is_refuted()) break;
-            if (!settle(c) && !push({box_around(difference, c)})) accept(c);
+            if (!settle(c) && !push(parts_around(difference, c))) accept(c);
         }
         while (!stack_.empty() && !is_refuted()) {
             const DifferencePiece piece = std::move(stack_.back());
@@ -344,6 +345,47 @@ private:
         return options_.within ? *options_.within : looseness * reach_ + cut_error;
     }
 
+    /// Nothing where corners would move farther than what is looked for. Corners that slide along
+    /// faces move farther than vertices of the difference are from the surfaces.
+    void match_corners() {
+        if (is_refuted() || !options_.match_corners) return;
+        const double least = std::max(reach_, cut_error);
+        for (const double factor : {1.0, 32.0, 1024.0}) {
+            CornerBound found = options_.match_corners(factor * least);
+            if (found.move > target() || (match_ && found.boxes.size() >= match_->boxes.size()))
+                continue;
+            match_ = std::move(found);
+            if (match_->boxes.empty()) return;
+        }
+    }
+    [[nodiscard]] static GridBox box_of(const Component& c) {
+        GridBox out{c.points.front(), c.points.front()};
+        for (const GridPoint& p : c.points) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                out.low[k] = std::min(out.low[k], p[k]);
+                out.high[k] = std::max(out.high[k], p[k]);
+            }
+        }
+        return out;
+    }
+    /// The parts of it where corners do not match, or all of it.
+    [[nodiscard]] std::vector<GridBox> open_boxes(const Component& c) const {
+        const GridBox around = box_of(c);
+        if (!match_) return {around};
+        std::vector<GridBox> out;
+        for (const GridBox& box : match_->boxes) {
+            GridBox common;
+            bool meet = true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                common.low[k] = std::max(box.low[k], around.low[k]);
+                common.high[k] = std::min(box.high[k], around.high[k]);
+                meet = meet && common.low[k] <= common.high[k];
+            }
+            if (meet) out.push_back(common);
+        }
+        return out;
+    }
+
     void look_at_vertices(const DifferencePiece& piece) {
         for (const VertexId v : piece.brep()->vertices()) {
             for (const GridTriangles* surface : {&first_, &second_}) {
@@ -357,8 +399,12 @@ private:
         }
     }
 
-    /// Whether the component is near one triangle of each surface.
+    /// Whether its corners match, or the component is near one triangle of each surface.
     bool settle(const Component& c) {
+        if (match_ && open_boxes(c).empty()) {
+            out_.upper = std::max(out_.upper, match_->move);
+            return true;
+        }
         ++out_.pieces;
         a_ = closest(first_, c, target());
         b_ = a_.radius <= target() ? closest(second_, c, target()) : Closeness{};
@@ -373,18 +419,18 @@ private:
             out_.upper = std::max(out_.upper, closest(*surface, c, 0).radius);
     }
 
-    Solid box_around(const Solid& solid, const Component& c) const {
+    [[nodiscard]] std::vector<Solid> parts_around(const Solid& solid, const Component& c) {
+        if (match_) out_.upper = std::max(out_.upper, match_->move);
+        std::vector<Solid> out;
+        for (const GridBox& box : open_boxes(c)) out.push_back(part_within(solid, box));
+        return out;
+    }
+    [[nodiscard]] Solid part_within(const Solid& solid, const GridBox& around) const {
         Expression box = solid;
         for (std::size_t k = 0; k < 3; ++k) {
-            Int128 low = c.points.front()[k];
-            Int128 high = low;
-            for (const GridPoint& p : c.points) {
-                low = std::min(low, p[k]);
-                high = std::max(high, p[k]);
-            }
             const auto axis = static_cast<int>(k);
-            const auto below = static_cast<std::int64_t>(low >> grid_bits) - 1;
-            const auto above = static_cast<std::int64_t>(high >> grid_bits) + 2;
+            const auto below = static_cast<std::int64_t>(around.low[k] >> grid_bits) - 1;
+            const auto above = static_cast<std::int64_t>(around.high[k] >> grid_bits) + 2;
             box = box & Solid::half_space(Plane::axis_aligned(axis, 1, above), solid.lattice());
             box = box &
                   Solid::half_space(Plane::axis_aligned(axis, 1, below).flipped(), solid.lattice());
@@ -437,6 +483,7 @@ private:
     const GridTriangles& second_;
     const RadiusOptions& options_;
     std::vector<DifferencePiece> stack_;
+    std::optional<CornerBound> match_;
     double reach_ = 0;  ///< upper bound of what `lower` is a lower bound of
     Closeness a_, b_;   ///< of the component that settle() saw last
     DifferenceRadius out_;

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include <trisect/brep/brep.h>
 #include <trisect/brep/measure/grid_distance.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/verify/corner_match.h>
 
 namespace trisect::detail {
 
@@ -17,6 +19,8 @@ struct RadiusOptions {
     std::optional<double> within;  ///< lattice units
     EvaluateOptions evaluate;
     std::size_t piece_limit = 0;
+    /// Corners of the second surface that are at most `reach` from the first one, matched.
+    std::function<CornerBound(double reach)> match_corners;
 };
 
 /// All lengths in lattice units.

@@ -17,7 +17,7 @@
 
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure/grid_distance.h>
-#include <trisect/brep/triangulate.h>
+#include <trisect/bsp/verify/corner_match.h>
 #include <trisect/bsp/verify/difference_radius.h>
 #include <trisect/bsp/verify/difference_witness.h>
 #include <trisect/kernel/error.h>
@@ -83,16 +83,6 @@ GridTriangles grid_triangles_of(const LatticeMesh& mesh) {
     return GridTriangles(std::move(out));
 }
 
-GridTriangles grid_triangles_of(const Brep& brep) {
-    std::vector<detail::GridPoint> points;
-    for (const Point& p : brep.points()) points.push_back(detail::to_grid(p));
-    std::vector<GridTriangle> out;
-    for (const FaceId f : brep.faces())
-        for (const IndexTriangle& t : triangulate(brep, f))
-            out.emplace_back(points[t[0]], points[t[1]], points[t[2]]);
-    return GridTriangles(std::move(out));
-}
-
 class Verification {
 public:
     Verification(BooleanOperation operation, std::span<const PolygonMesh> operands,
@@ -121,7 +111,8 @@ public:
         const Solid difference = evaluate(exact ^ solids_.back(), options_.evaluate);
         if (difference.is_empty()) return std::move(report_);
         const Solid exact_set = evaluate(exact, options_.evaluate);
-        exact_ = grid_triangles_of(exact_set.to_brep());
+        exact_brep_ = exact_set.to_brep();
+        exact_ = detail::boundary_triangles(exact_brep_);
         result_ = grid_triangles_of(imports_.back().mesh);
         judge(difference);
         return std::move(report_);
@@ -147,7 +138,7 @@ private:
 
     void judge(const Solid& difference) {
         detail::DifferenceRadius radius;
-        if (exact_->empty() || result_->empty()) {
+        if (exact_->triangles.empty() || result_->empty()) {
             radius.lower = radius.upper = infinity;
             radius.piece = std::make_shared<Brep>(difference.to_brep());
             radius.vertex = VertexId(0);
@@ -157,7 +148,10 @@ private:
             if (options_.within) options.within = *options_.within / unit_;
             options.evaluate = options_.evaluate;
             options.piece_limit = options_.piece_limit;
-            radius = detail::difference_radius(difference, *exact_, *result_, options);
+            options.match_corners = [this](double reach) {
+                return detail::matched_corners(exact_brep_, *exact_, imports_.back().mesh, reach);
+            };
+            radius = detail::difference_radius(difference, exact_->triangles, *result_, options);
         }
         report_.lower = radius.lower * unit_;
         report_.upper = radius.upper * unit_;
@@ -171,8 +165,9 @@ private:
         }
         report_.verdict = Verdict::Undecided;
         if (within > 0 && !(report_.lower > within)) return;
-        const detail::WitnessQuestion question{operation_, options_, lattice_, imports_,
-                                               solids_,    *exact_,  *result_, report_.moved};
+        const detail::WitnessQuestion question{operation_, options_,     lattice_,
+                                               imports_,   solids_,      exact_->triangles,
+                                               *result_,   report_.moved};
         report_.witness = detail::find_witness(question, radius);
         if (report_.witness) report_.verdict = Verdict::Different;
     }
@@ -183,7 +178,8 @@ private:
     double unit_ = 1;
     std::vector<ImportedMesh> imports_;  ///< the operands and RESULT
     std::vector<Solid> solids_;          ///< the same
-    std::optional<GridTriangles> exact_;
+    Brep exact_brep_;
+    std::optional<detail::BoundaryTriangles> exact_;
     std::optional<GridTriangles> result_;
     VerifyReport report_;
 };

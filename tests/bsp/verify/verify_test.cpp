@@ -211,12 +211,14 @@ TEST_F(VerifyBoxes, AnOpenOperandIsRefused) {
 }
 
 TEST_F(VerifyBoxes, NothingButOnePieceAllowed) {
+    // A second skin: corners match, but nothing is covered once.
     VerifyOptions options;
     options.piece_limit = 1;
     options.within = 1.01 * small;
     const PolygonMesh larger =
         make_box({2 - small, 2 - small, 2 - small}, {4 + small, 4 + small, 4 + small});
-    const VerifyReport report = verify(BooleanOperation::Intersection, operands_, larger, options);
+    const VerifyReport report =
+        verify(BooleanOperation::Intersection, operands_, joined(larger, larger), options);
     EXPECT_EQ(report.verdict, Verdict::Undecided);
     EXPECT_GE(report.upper, small);
 }
