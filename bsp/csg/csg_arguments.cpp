@@ -15,12 +15,6 @@ const CsgValue* CsgArguments::find(std::string_view name) const {
     return nullptr;
 }
 
-const CsgValue* CsgArguments::first() const {
-    for (const CsgArgument& a : node_.arguments)
-        if (a.name.empty()) return &a.value;
-    return nullptr;
-}
-
 double CsgArguments::number(const CsgValue& value) const {
     const double* n = value.number();
     if (n == nullptr) fail(ErrorCode::Input, value.place, "a number was expected");
@@ -31,6 +25,12 @@ double CsgArguments::number(const CsgValue& value) const {
 double CsgArguments::number(std::string_view name, double otherwise) const {
     const CsgValue* value = find(name);
     return value == nullptr ? otherwise : number(*value);
+}
+
+double CsgArguments::radius(std::string_view name, std::string_view diameter,
+                            double otherwise) const {
+    const CsgValue* value = find(diameter);
+    return value == nullptr ? number(name, otherwise) : number(*value) / 2;
 }
 
 bool CsgArguments::truth(std::string_view name, bool otherwise) const {

@@ -17,10 +17,11 @@ public:
 
     /// Null when it is not there or undef.
     [[nodiscard]] const CsgValue* find(std::string_view name) const;
-    /// The first argument without a name; null when there is none.
-    [[nodiscard]] const CsgValue* first() const;
     /// \throw CsgError (Input) when it is there and no finite number
     [[nodiscard]] double number(std::string_view name, double otherwise) const;
+    /// Half of the diameter where there is one. \throw as number() does
+    [[nodiscard]] double radius(std::string_view name, std::string_view diameter,
+                                double otherwise) const;
     [[nodiscard]] bool truth(std::string_view name, bool otherwise) const;
     [[nodiscard]] std::string text(std::string_view name, std::string_view otherwise) const;
     /// As many truth values; one stands for all of them, and numbers but 0 are true.

@@ -135,7 +135,7 @@ Expression CsgEvaluator::group(std::uint32_t n, const CsgFrame& frame) {
     if (frame.color != CsgFrame::no_color || program_.node(n).name != "color")
         return children_of(n, frame);
     const CsgArguments in = program_.arguments(n);
-    const CsgValue* const value = in.first();
+    const CsgValue* const value = in.find("c");
     if (value == nullptr || value->list() == nullptr || value->list()->size() < 4)
         return children_of(n, frame);
     const std::vector<double> numbers = in.numbers(*value, 4);

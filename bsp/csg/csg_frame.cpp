@@ -13,8 +13,7 @@ bool changes_axes(const AffineMap& map) {
 }
 
 AffineMap csg_matrix(const CsgArguments& arguments, bool flat) {
-    const CsgValue* value = arguments.first();
-    if (value == nullptr) value = arguments.find("m");
+    const CsgValue* value = arguments.find("m");
     AffineMap map;
     if (value == nullptr) return map;
     const CsgValue::List& rows = arguments.list(*value);

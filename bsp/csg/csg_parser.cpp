@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <trisect/bsp/csg/csg_lexer.h>
+#include <trisect/bsp/csg/csg_parameters.h>
 #include <trisect/bsp/csg/csg_tree.h>
 
 namespace trisect {
@@ -189,6 +190,7 @@ CsgTree parse_csg(std::string_view text, std::string file, const CsgLimits& limi
     CsgTree tree;
     tree.file = std::move(file);
     Parser(text, tree, limits).run();
+    detail::name_csg_arguments(tree);
     return tree;
 }
 

@@ -67,7 +67,7 @@ void add_band(PolygonMesh& mesh, std::uint32_t lower, std::uint32_t upper, std::
 }
 
 PolygonMesh csg_sphere(const CsgArguments& arguments) {
-    const double radius = arguments.number("r", 1);
+    const double radius = arguments.radius("r", "d", 1);
     if (!(radius > 0)) return {};
     const std::uint32_t n = csg_fragments(arguments, radius);
     const std::uint32_t rings = (n + 1) / 2;
@@ -85,8 +85,9 @@ PolygonMesh csg_sphere(const CsgArguments& arguments) {
 
 PolygonMesh csg_cylinder(const CsgArguments& arguments) {
     const double height = arguments.number("h", 1);
-    const double r1 = arguments.number("r1", arguments.number("r", 1));
-    const double r2 = arguments.number("r2", arguments.number("r", 1));
+    const double r = arguments.radius("r", "d", 1);
+    const double r1 = arguments.radius("r1", "d1", r);
+    const double r2 = arguments.radius("r2", "d2", r);
     if (!(height > 0) || r1 < 0 || r2 < 0 || !(std::max(r1, r2) > 0)) return {};
     const std::uint32_t n = csg_fragments(arguments, std::max(r1, r2));
     const double low = arguments.truth("center", false) ? -height / 2 : 0;
@@ -127,7 +128,7 @@ std::vector<Outline> csg_square(const CsgArguments& arguments) {
 }
 
 std::vector<Outline> csg_circle(const CsgArguments& arguments) {
-    const double radius = arguments.number("r", 1);
+    const double radius = arguments.radius("r", "d", 1);
     if (!(radius > 0)) return {};
     const std::uint32_t n = csg_fragments(arguments, radius);
     Outline out;

@@ -37,7 +37,7 @@ struct CsgValue {
 };
 
 struct CsgArgument {
-    std::string name;  ///< empty: by position
+    std::string name;  ///< of a known node never empty, by OpenSCAD's parameter lists
     CsgValue value;
 };
 
@@ -72,7 +72,8 @@ struct CsgLimits {
 };
 
 /// Reads a program. O(n). `file` is the name in errors.
-/// \throw CsgError (Input) where the text is malformed, (Limit) beyond the limits
+/// \throw CsgError (Input) where the text is malformed, (Unsupported) where a known node has no such
+/// parameter, (Limit) beyond the limits
 [[nodiscard]] CsgTree parse_csg(std::string_view text, std::string file,
                                 const CsgLimits& limits = {});
 

@@ -43,6 +43,21 @@ TEST(CsgEvaluate, RoundShapesHaveTheFacetsOfTheManual) {
     EXPECT_EQ(counts_of("cylinder($fn = 7.9, h = 1, r1 = 3, r2 = 0);"), 8U);
 }
 
+TEST(CsgEvaluate, ArgumentsWithoutNamesAndDiameters) {
+    // Once they were left out, and these were shapes of size 1.
+    EXPECT_EQ(volume_of("cube([2, 3, 4], true);"), "24");
+    EXPECT_EQ(volume_of("cube(2);"), "8");
+    EXPECT_EQ(volume_of("cylinder(3, 2, 0, $fn = 4, true);"), "8");
+    EXPECT_EQ(volume_of("cylinder($fn = 4, h = 3, d = 4);"), "24");
+    EXPECT_EQ(volume_of("cylinder($fn = 4, h = 3, d1 = 4, r2 = 0);"), "8");
+    EXPECT_EQ(volume_of("linear_extrude(3) square([2, 3], true);"), "18");
+    EXPECT_EQ(volume_of("linear_extrude(height = 1) circle(d = 4, $fn = 4);"), "8");
+    EXPECT_EQ(volume_of("polyhedron([[0,0,0],[6,0,0],[0,1,0],[0,0,1]],"
+                        "[[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);"),
+              "1");
+    EXPECT_EQ(volume_of("sphere(2, $fn = 6);"), volume_of("sphere(d = 4, $fn = 6);"));
+}
+
 TEST(CsgEvaluate, PolyhedraAreClockwiseSeenFromOutside) {
     const std::string points = "points = [[0,0,0],[6,0,0],[0,1,0],[0,0,1]], ";
     EXPECT_EQ(volume_of("polyhedron(" + points + "faces = [[0,1,2],[0,3,1],[0,2,3],[1,3,2]]);"),

@@ -12,7 +12,7 @@ namespace {
 TEST(CsgParser, NodesHaveNamesArgumentsChildrenAndPlaces) {
     const CsgTree tree = parse_csg(
         "// a comment\ndifference() {\n\tcube(size = [1, 2.5, -3e1]);\n"
-        "\t/* another */ #sphere(\"a\\\"b\", true, undef, $fn = 8) ;\n}\n",
+        "\t/* another */ #text(\"a\\\"b\", true, undef, $fn = 8) ;\n}\n",
         "a.csg");
     ASSERT_EQ(tree.roots.size(), 1U);
     const CsgNode& root = tree.nodes[tree.roots[0]];
@@ -28,12 +28,15 @@ TEST(CsgParser, NodesHaveNamesArgumentsChildrenAndPlaces) {
     EXPECT_EQ(*size[1].number(), 2.5);
     EXPECT_EQ(*size[2].number(), -30);
     EXPECT_EQ(size[2].place.column, 23U);
-    const CsgNode& sphere = tree.nodes[root.children[1]];
-    EXPECT_TRUE(sphere.modifiers.highlight);
-    EXPECT_EQ(*sphere.arguments[0].value.text(), "a\"b");
-    EXPECT_TRUE(*sphere.arguments[1].value.truth());
-    EXPECT_TRUE(sphere.arguments[2].value.is_undefined());
-    EXPECT_EQ(sphere.arguments[3].name, "$fn");
+    const CsgNode& text = tree.nodes[root.children[1]];
+    EXPECT_TRUE(text.modifiers.highlight);
+    EXPECT_EQ(*text.arguments[0].value.text(), "a\"b");
+    EXPECT_TRUE(*text.arguments[1].value.truth());
+    EXPECT_TRUE(text.arguments[2].value.is_undefined());
+    EXPECT_EQ(text.arguments[3].name, "$fn");
+    // By OpenSCAD's parameter lists.
+    EXPECT_EQ(text.arguments[0].name, "text");
+    EXPECT_EQ(text.arguments[2].name, "font");
 }
 
 TEST(CsgParser, ChildWithoutBracesAndBlocksWithoutNames) {
@@ -67,6 +70,9 @@ TEST(CsgParser, MalformedTextIsRefusedAtItsPlace) {
     EXPECT_EQ(failure_of("cube(1e999);"), "1:6 3");
     EXPECT_EQ(failure_of("cube(1.2.3);"), "1:6 3");
     EXPECT_EQ(failure_of("cube(-);"), "1:6 3");
+    EXPECT_EQ(failure_of("cube(1, true, 2);"), "1:15 3");
+    EXPECT_EQ(failure_of("union(1);"), "1:7 3");
+    EXPECT_EQ(failure_of("cube(sizes = 1);"), "1:14 7");
     EXPECT_EQ(failure_of("x = 3;"), "1:3 3");
     EXPECT_EQ(failure_of("cube(size = a);"), "1:13 3");
     EXPECT_EQ(failure_of("}"), "1:1 3");
