@@ -277,6 +277,7 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         out.document["volume"] = volume(boundary);
         return boundary;
     });
+    if (mesh.triangles.empty()) session.note("the solid is empty");
     PolygonMesh rounded = to_polygon_mesh(mesh);
     const EvalCertificate made = session.interruptible_stage(
         "certify", [&] { return certified(session, options, mesh, rounded); });
