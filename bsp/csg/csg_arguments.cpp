@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/bsp/csg/csg_arguments.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace trisect::detail {
@@ -10,9 +11,11 @@ void CsgArguments::fail(ErrorCode code, CsgPlace place, const std::string& messa
 }
 
 const CsgValue* CsgArguments::find(std::string_view name) const {
-    for (const CsgArgument& a : node_.arguments)
-        if (a.name == name) return a.value.is_undefined() ? nullptr : &a.value;
-    return nullptr;
+    // Of two with a name the last one counts.
+    const auto& all = node_.arguments;
+    const auto a = std::find_if(all.rbegin(), all.rend(),
+                                [&](const CsgArgument& b) { return b.name == name; });
+    return a == all.rend() || a->value.is_undefined() ? nullptr : &a->value;
 }
 
 double CsgArguments::number(const CsgValue& value) const {

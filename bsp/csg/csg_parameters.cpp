@@ -43,7 +43,7 @@ const Parameters* parameters_of(std::string_view node) {
         {"rotate_extrude",
          {{"file", "layer", "origin", "scale"}, {"convexity", "angle", "timestamp"}}},
         {"offset", {{"r"}, {"delta", "chamfer", "join_type", "miter_limit"}}},
-        {"projection", {{"convexity", "cut"}, {}}},
+        {"projection", {{"cut", "convexity"}, {}}},
         {"resize", {{"newsize", "auto", "convexity"}, {}}},
         {"import",
          {{"file", "layer", "convexity", "origin", "scale"},

@@ -47,6 +47,8 @@ TEST(CsgEvaluate, ArgumentsWithoutNamesAndDiameters) {
     // Once they were left out, and these were shapes of size 1.
     EXPECT_EQ(volume_of("cube([2, 3, 4], true);"), "24");
     EXPECT_EQ(volume_of("cube(2);"), "8");
+    EXPECT_EQ(volume_of("cube(3, size = 2);"), "8");
+    EXPECT_EQ(volume_of("linear_extrude(1) projection(true) cube(2, true);"), "4");
     EXPECT_EQ(volume_of("cylinder(3, 2, 0, $fn = 4, true);"), "8");
     EXPECT_EQ(volume_of("cylinder($fn = 4, h = 3, d = 4);"), "24");
     EXPECT_EQ(volume_of("cylinder($fn = 4, h = 3, d1 = 4, r2 = 0);"), "8");
