@@ -35,6 +35,8 @@ namespace trisect {
 [[nodiscard]] double volume(const ExactMesh& mesh);
 [[nodiscard]] double volume(const LatticeMesh& mesh);
 
+/// -1 for a boundary that is inside out, however small it is: as a double its volume may be 0.
+[[nodiscard]] int sign_of_volume(const Brep& brep);
 /// -1 for a shell that bounds a cavity, 1 for one that bounds material.
 [[nodiscard]] int sign_of_volume(const Brep& brep, ShellId shell);
 

@@ -83,7 +83,7 @@ ReadOperand read_exact_operand(const Session& session, const std::string& name,
     ReadOperand out;
     out.note.name = name;
     out.brep = read_exact(std::filesystem::path(name));
-    if (!out.brep->is_empty() && !(volume(*out.brep) > 0) &&
+    if (!out.brep->is_empty() && sign_of_volume(*out.brep) <= 0 &&
         options.winding == EvaluateOptions::Winding::Positive)
         throw OperandError(ErrorCode::InvalidSolid, name,
                            "the boundary is inside out (--winding nonzero accepts it)");

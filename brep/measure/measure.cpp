@@ -382,6 +382,20 @@ LatticeSums sums_of(const LatticeMesh& mesh, Want want) {
     return sums;
 }
 
+template <class Boundary>
+int sign_of_measured(const SolidMeasure<Boundary>& m) {
+    if (!m.is_exact()) {
+        const auto [least, most] = m.quick_volume6();
+        if (least.sign() != 0 && least.sign() == most.sign()) return least.sign();
+        for (const unsigned long bits : precisions) {
+            const Enclosure e = m.enclose(bits).first;
+            const int sign = e.lower_end().sign();
+            if (sign != 0 && sign == e.upper_end().sign()) return sign;
+        }
+    }
+    return m.volume6().sign();
+}
+
 }  // namespace
 
 ExactRational exact_volume(const Brep& brep) { return exact_volume_of(BrepFaces(brep)); }
@@ -404,18 +418,12 @@ double volume(const ExactMesh& mesh) { return rounded_volume(MeshFaces(mesh)); }
 
 double volume(const LatticeMesh& mesh) { return exact_volume(mesh).to_double(); }
 
+int sign_of_volume(const Brep& brep) {
+    return sign_of_measured(SolidMeasure(BrepFaces(brep), Want::Volume));
+}
+
 int sign_of_volume(const Brep& brep, ShellId shell) {
-    const SolidMeasure m(ShellFaces(brep, shell), Want::Volume);
-    if (!m.is_exact()) {
-        const auto [least, most] = m.quick_volume6();
-        if (least.sign() != 0 && least.sign() == most.sign()) return least.sign();
-        for (const unsigned long bits : precisions) {
-            const Enclosure e = m.enclose(bits).first;
-            const int sign = e.lower_end().sign();
-            if (sign != 0 && sign == e.upper_end().sign()) return sign;
-        }
-    }
-    return m.volume6().sign();
+    return sign_of_measured(SolidMeasure(ShellFaces(brep, shell), Want::Volume));
 }
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const Brep& brep) {

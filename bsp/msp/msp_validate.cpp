@@ -179,7 +179,7 @@ public:
         : tree_(tree),
           brep_(brep),
           soup_(detail::msp::soup_of(brep)),
-          is_complement_(volume(brep) < 0) {}
+          is_complement_(sign_of_volume(brep) < 0) {}
 
     void check_vertices() const {
         for (const VertexId v : brep_.vertices())

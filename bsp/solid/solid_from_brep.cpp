@@ -160,7 +160,7 @@ Solid solid_from(const SourcePtr& source, PolygonList polygons, const Box& box, 
 Solid Solid::from_brep(const Brep& brep, Embedding embedding, InsideOut inside_out) {
     if (brep.is_empty()) return {};
     const bool accepts_all = embedding != Embedding::Assume && inside_out == InsideOut::Accept;
-    if (!accepts_all && !(volume(brep) > 0)) detail::require_accepted(embedding, inside_out);
+    if (!accepts_all && sign_of_volume(brep) <= 0) detail::require_accepted(embedding, inside_out);
     if (is_on_the_lattice(brep)) return from_lattice_mesh(triangles_of(brep), embedding);
     FragmentMaker maker(brep);
     return solid_from(maker.source(), maker.polygons(), maker.box(), true,

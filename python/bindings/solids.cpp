@@ -60,7 +60,7 @@ std::string exact_boundary_text(const Solid& solid) {
     return run([&] {
         if (solid.is_whole_space()) return exact_text(Brep());
         Brep brep = solid.to_brep();
-        if (volume(brep) < 0) brep = evaluate(~solid).to_brep();
+        if (sign_of_volume(brep) < 0) brep = evaluate(~solid).to_brep();
         return exact_text(brep);
     });
 }

@@ -27,7 +27,7 @@ Solid resolved(const Solid& solid) {
 }
 
 // The volume below the faces of an unbounded solid with a bounded boundary is negative.
-bool is_bounded(const Brep& brep) { return brep.is_empty() || volume(brep) > 0; }
+bool is_bounded(const Brep& brep) { return brep.is_empty() || sign_of_volume(brep) > 0; }
 
 }  // namespace
 

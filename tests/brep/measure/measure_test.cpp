@@ -76,6 +76,14 @@ TEST(Measure, Cube) {
     EXPECT_EQ(*bounds(b), (Bounds{{0, 0, 0}, {3.0 / 256, 3.0 / 256, 3.0 / 256}}));
 }
 
+TEST(Measure, TheSignOfAVolumeBelowTheLeastDouble) {
+    const Brep b = cube(3, Lattice{-400});
+    EXPECT_EQ(volume(b), 0.0);
+    EXPECT_EQ(sign_of_volume(b), 1);
+    EXPECT_EQ(sign_of_volume(b, ShellId(0)), 1);
+    EXPECT_EQ(sign_of_volume(Brep()), 0);
+}
+
 TEST(Measure, TetrahedronHasIrrationalArea) {
     SolidSketch s;
     const LatticePoint o{0, 0, 0}, x{6, 0, 0}, y{0, 6, 0}, z{0, 0, 6};

@@ -11,8 +11,10 @@
 
 #include <trisect/brep/exact_rational.h>
 #include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/interference.h>
 #include <trisect/bsp/interference/interference_model.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
 #include <trisect/kernel/error.h>
@@ -203,6 +205,16 @@ TEST(InterferenceModel, IndexIsKeptOrMadeOnceByManyThreads) {
     for (const auto* s : seen) EXPECT_EQ(s, &lazy.index());
     EXPECT_EQ(lazy.index().locate(std::array<double, 3>{0.5, 0.5, 0.5}).location,
               trisect::Location::Inside);
+}
+
+TEST(InterferenceModel, VolumesBelowTheLeastDoubleAreBounded) {
+    // Such a solid was refused as unbounded, and its boundary as inside out.
+    const trisect::PolygonMesh mesh =
+        trisect::make_box({0, 0, 0}, {0x1p-1000, 0x1p-1000, 0x1p-1000});
+    const Solid solid = Solid::from_mesh(mesh);
+    const InterferenceModel model(solid);
+    EXPECT_EQ(interfere(model, {}, model, {}).relation, trisect::Relation::Equal);
+    EXPECT_FALSE(Solid::from_brep(solid.to_brep()).is_empty());
 }
 
 TEST(InterferenceModel, RandomSolidsThatTouchThemselves) {
