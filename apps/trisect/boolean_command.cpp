@@ -178,19 +178,19 @@ void deliver_mesh(Session& session, const BooleanOptions& options,
                   [&] { result.written = write_output_mesh(session, options.output, formatted); });
 }
 
-/// Without rounding: the solid with its tree.
-void deliver_native(Session& session, const BooleanOptions& options, const Solid& solid,
-                    BooleanResult& result) {
+/// Without rounding: the solid with its tree, or its boundary in integers.
+void deliver_lossless(Session& session, const BooleanOptions& options, const Solid& solid,
+                      BooleanResult& result) {
     const ExactMesh exact = session.stage("assemble", [&] { return solid.to_exact_mesh(); });
     session.stage("describe", [&] {
         result.description = describe(
             exact, [&] { return solid.to_brep(); }, description_options(session, options));
         result.description.lattice = result.report.lattice;
     });
-    session.stage("write", [&] { write_native_output(session, options.output, solid); });
+    session.stage("write", [&] { write_lossless_output(session, options.output, solid); });
 }
 
-/// A native file has the boundary itself: nothing is rounded, and no faces are made.
+/// Without rounding there is nothing to repair, and faces are as they are.
 void require_mesh_output(const BooleanOptions& options) {
     if (needs_brep(options))
         throw UsageError(options.output +
@@ -253,7 +253,10 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
             "mesh files, exact boundaries (.exact) or native files (.trisect), two or more")
         ->required()
         ->expected(2, 1 << 20);
-    command->add_option("-o,--output", options.output, "result; '-' is the standard output")
+    command
+        ->add_option(
+            "-o,--output", options.output,
+            "mesh, exact boundary (.exact) or native file (.trisect); '-' is the standard output")
         ->required();
     command
         ->add_option("--boundary", options.boundary,
@@ -290,9 +293,10 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
 
 Outcome run_boolean(Session& session, const BooleanOptions& options) {
     if (wants_slabs(session, options)) return run_in_slabs(session, options);
-    const bool is_native = has_native_name(options.output);
-    const MeshFormat format = is_native ? MeshFormat::Off : output_format(session, options.output);
-    if (is_native) require_mesh_output(options);
+    const bool is_lossless = has_lossless_name(options.output);
+    const MeshFormat format =
+        is_lossless ? MeshFormat::Off : output_format(session, options.output);
+    if (is_lossless) require_mesh_output(options);
     if (options.operands.properties) {
         check_holds_properties(options.output, format);
         if (options.repair)
@@ -316,8 +320,8 @@ Outcome run_boolean(Session& session, const BooleanOptions& options) {
         return evaluated;
     });
     note_rounding(session, result.report.lattice, "the operands");
-    if (is_native) {
-        deliver_native(session, options, solid, result);
+    if (is_lossless) {
+        deliver_lossless(session, options, solid, result);
     } else if (by_faces) {
         deliver_brep(session, options, operands, solid, format, result);
     } else {

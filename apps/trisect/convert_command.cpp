@@ -111,8 +111,9 @@ bool has_transform(const ConvertOptions& options) {
     return !options.matrix.empty() || options.scale || options.rotate || options.translate;
 }
 
-/// A native file is of a solid: the input must bound one, and keeps what it is to the last bit.
-Outcome run_convert_to_native(Session& session, const ConvertOptions& options) {
+/// Native files and exact boundaries are of solids: the input must bound one, and keeps what it is
+/// to the last bit.
+Outcome run_lossless_convert(Session& session, const ConvertOptions& options) {
     if (has_transform(options))
         throw UsageError(options.output + ": transforms are for meshes; convert to one first");
     check_outputs(session, {options.output});
@@ -120,12 +121,12 @@ Outcome run_convert_to_native(Session& session, const ConvertOptions& options) {
     const std::vector<Operand> read = session.stage("read", [&] {
         return read_operands(session, std::array{options.input}, OperandOptions());
     });
-    session.stage("write", [&] { write_native_output(session, options.output, read[0].solid); });
+    session.stage("write", [&] { write_lossless_output(session, options.output, read[0].solid); });
     Outcome out;
     out.document["schema"] = "trisect.convert/1";
     out.document["input"] = options.input;
     out.document["output"] = options.output;
-    out.document["format"] = "trisect";
+    out.document["format"] = has_native_name(options.output) ? "trisect" : "exact";
     out.document.update(read[0].facts);
     out.document.erase("file");
     out.document["seconds"] = session.seconds();
@@ -194,8 +195,14 @@ void add_convert_command(CLI::App& app, ConvertOptions& options) {
         "convert",
         "write another format; transforms apply in the order matrix, scale, rotate, "
         "translate");
-    command->add_option("A", options.input, "mesh file, or native file (.trisect)")->required();
-    command->add_option("-o,--output", options.output, "result; '-' is the standard output")
+    command
+        ->add_option("A", options.input,
+                     "mesh file, exact boundary (.exact) or native file (.trisect)")
+        ->required();
+    command
+        ->add_option(
+            "-o,--output", options.output,
+            "mesh, exact boundary (.exact) or native file (.trisect); '-' is the standard output")
         ->required();
     command->add_flag("--properties", options.properties,
                       "keep materials, textures, texture coordinates, normals and colours of "
@@ -204,8 +211,8 @@ void add_convert_command(CLI::App& app, ConvertOptions& options) {
 }
 
 Outcome run_convert(Session& session, const ConvertOptions& options) {
-    return has_native_name(options.output) ? run_convert_to_native(session, options)
-                                           : run_mesh_convert(session, options);
+    return has_lossless_name(options.output) ? run_lossless_convert(session, options)
+                                             : run_mesh_convert(session, options);
 }
 
 }  // namespace trisect::app

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // eval MODEL.csg -o OUT: the set that a program in OpenSCAD's evaluated form describes.
-#include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/csg/csg_evaluate.h>
@@ -42,9 +41,7 @@ struct EvalCertificate {
     std::size_t divided = 0;  ///< triangles more, since edges lie in faces
 };
 
-bool is_mesh(const std::string& output) {
-    return !has_exact_boundary(output) && !has_native_name(output);
-}
+bool is_mesh(const std::string& output) { return !has_lossless_name(output); }
 
 /// Checks the triangles as the format holds them, and divides those that edges lie in. Faces of
 /// STEP are written as they are.
@@ -78,9 +75,7 @@ void write_colored(Session& session, const std::string& output, MeshFormat forma
 void write_result(Session& session, const std::string& output, const Solid& solid,
                   const PolygonMesh& mesh, std::span<const FaceSource> sources,
                   const CsgReport& report) {
-    if (has_native_name(output)) return write_native_output(session, output, solid);
-    if (has_exact_boundary(output))
-        return session.write_output(output, exact_text(solid.to_brep()));
+    if (has_lossless_name(output)) return write_lossless_output(session, output, solid);
     const MeshFormat format = output_format(session, output);
     const bool has_color = !report.color_of_source.empty() && holds_colors(format);
     if (format == MeshFormat::Step) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh_files.h"
 
+#include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/file_bytes.h>
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/whole_faces.h>
@@ -137,20 +139,32 @@ void cut_uneven_faces(Model& model) {
     }
 }
 
+PolygonMesh rounded_mesh_of(const std::string& name) {
+    if (has_native_name(name)) return read_native(name).to_mesh();
+    return to_polygon_mesh(read_exact(std::filesystem::path(name)));
+}
+
 }  // namespace
 
 bool has_exact_boundary(const std::string& name) { return name.ends_with(".exact"); }
 
 bool has_native_name(const std::string& name) { return name.ends_with(".trisect"); }
 
-void write_native_output(Session& session, const std::string& name, const Solid& solid) {
-    session.write_output(name, native_bytes(solid), OutputSafety::Flushed);
+bool has_lossless_name(const std::string& name) {
+    return has_native_name(name) || has_exact_boundary(name);
+}
+
+void write_lossless_output(Session& session, const std::string& name, const Solid& solid) {
+    if (has_native_name(name))
+        session.write_output(name, native_bytes(solid), OutputSafety::Flushed);
+    else
+        session.write_output(name, exact_text(solid.to_brep()));
 }
 
 InputModel read_input_model(const Session& session, const std::string& name, bool properties) {
     InputModel out;
-    if (has_native_name(name)) {
-        out.model = model_of(read_native(name).to_mesh());
+    if (has_lossless_name(name)) {
+        out.model = model_of(rounded_mesh_of(name));
         return out;
     }
     const InputFile file = input_file(session, name);
@@ -171,7 +185,7 @@ PolygonMesh read_input(const Session& session, const std::string& name) {
 }
 
 RemarkedMesh read_input_with_remarks(const Session& session, const std::string& name) {
-    if (has_native_name(name)) return {read_native(name).to_mesh(), {}};
+    if (has_lossless_name(name)) return {rounded_mesh_of(name), {}};
     const InputFile file = input_file(session, name);
     PolygonMesh mesh = read_mesh(file.bytes.view(), file.format, file.name);
     return {std::move(mesh), file_remarks(file.bytes.view(), file.format, file.name)};

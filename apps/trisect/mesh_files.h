@@ -43,7 +43,9 @@ private:
 
 /// Whether a file holds a solid with its tree (bsp/native_file.h), by the extension.
 [[nodiscard]] bool has_native_name(const std::string& name);
-void write_native_output(Session& session, const std::string& name, const Solid& solid);
+/// Either: what is written there is not rounded.
+[[nodiscard]] bool has_lossless_name(const std::string& name);
+void write_lossless_output(Session& session, const std::string& name, const Solid& solid);
 
 /// A file with its parts, which formats that hold no models have one of.
 struct InputModel {

@@ -171,6 +171,26 @@ TEST_F(ConvertCommand, LatticeRounds) {
     EXPECT_EQ(document["lattice"]["max_move"], 47);
 }
 
+TEST_F(ConvertCommand, ExactBoundariesAreOutputsAndInputs) {
+    const std::string exact = path("box.exact");
+    EXPECT_EQ(trisect({"convert", box_, "-o", exact, "--json"}).json()["format"], "exact");
+    EXPECT_EQ(trisect({"convert", exact, "-o", path("again.off")}).code, 0);
+    EXPECT_EQ(trisect({"diff", box_, path("again.off")}).code, 0);
+    EXPECT_EQ(trisect({"convert", exact, "-o", path("box.trisect")}).code, 0);
+    EXPECT_EQ(trisect({"diff", exact, path("box.trisect")}).code, 0);
+    // What a boolean writes is what it writes beside a mesh.
+    const std::string other = write("other.off",
+                                    "OFF\n4 4 0\n0 0 0\n3 0.3 0\n0 3 0.1\n0.2 0 3\n"
+                                    "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    EXPECT_EQ(trisect({"difference", box_, other, "-o", path("d.exact")}).code, 0);
+    EXPECT_EQ(trisect({"difference", box_, other, "-o", path("d.off"), "--boundary",
+                       path("beside.exact")})
+                  .code,
+              0);
+    EXPECT_EQ(read(path("d.exact")), read(path("beside.exact")));
+    EXPECT_EQ(trisect({"difference", box_, other, "-o", path("f.exact"), "--faces"}).code, 2);
+}
+
 TEST_F(ConvertCommand, OpenMeshesPass) {
     EXPECT_EQ(trisect({"convert", open_box("open.obj"), "-o", path("open.stl")}).code, 0);
     EXPECT_EQ(info(path("open.stl"))["faces"], 10);
