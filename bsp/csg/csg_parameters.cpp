@@ -17,7 +17,7 @@ struct Parameters {
     std::vector<std::string_view> by_name_only;
 };
 
-/// OpenSCAD 2021.01. What has no effect on the set (convexity, a time stamp) is here as well.
+/// As OpenSCAD has them. What has no effect on the set (convexity, a time stamp) is here as well.
 const Parameters* parameters_of(std::string_view node) {
     static const Parameters none{};
     static const std::map<std::string_view, Parameters> known{
