@@ -35,6 +35,11 @@ public:
     /// ordinary meshes. \throw CancelledError, LimitError by the StopScope
     [[nodiscard]] std::optional<bool> has_no_contact() const;
 
+    /// Whether each direction from a point within plainly meets one triangle: then it bounds a
+    /// solid, seen from outside, and no two triangles meet beyond the corners and edges that they
+    /// share. False as well where doubles do not decide. O(n).
+    [[nodiscard]] bool is_starlike() const;
+
     /// Whether it is plainly the boundary of a convex solid, seen from outside: then no two
     /// triangles meet beyond the corners and edges that they share. Exact; false as well where a
     /// corner lies within a face. Ends at the first edge that is not convex. O(n) where few edges

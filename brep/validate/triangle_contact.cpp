@@ -8,10 +8,9 @@
 // with rounded intervals cannot separate; and they are what matters in meshes whose neighbours
 // touch everywhere.
 //
-// Before any of this, signs decide nearly all pairs: a line through an edge that separates the
-// triangles in a projection (the caps of machined parts are fans of needles whose boxes all
-// overlap), all corners of one triangle on one side of the other's plane, or a shared edge and a
-// third corner off the plane.
+// Before any of this, doubles decide nearly all pairs (contact_filter.h), and signs most others:
+// all corners of one triangle on one side of the other's plane, or a shared edge and a third corner
+// off the plane.
 //
 // Coplanar triangles are compared in a projection: their insides are disjoint iff the line of some
 // edge separates them (the separating axis theorem for convex polygons in the plane).
@@ -19,15 +18,13 @@
 #include <trisect/brep/validate/triangle_contact.h>
 
 #include <algorithm>
-#include <cmath>
 #include <compare>
 #include <optional>
 #include <utility>
 
+#include <trisect/brep/validate/contact_filter.h>
 #include <trisect/kernel/contract.h>
-#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/flat_corner.h>
-#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
@@ -57,71 +54,6 @@ int shared_corners(const IndexedTriangle& a, const IndexedTriangle& b) {
         if (c == b[0] || c == b[1] || c == b[2]) ++n;
     return n;
 }
-
-// Whether the line of some edge keeps the triangles apart in the projection along the axis in which
-// a is largest, but for a shared corner on that line. Only a yes means something. The doubles are
-// exact; differences round once, so a turn is within 4·2^-53 of the sum of its products.
-class ProjectedFilter {
-public:
-    ProjectedFilter(std::span<const LatticePoint> points, const IndexedTriangle& a,
-                    const IndexedTriangle& b) {
-        const int axis = largest_normal_axis(points, a);
-        u_ = (axis + 1) % 3;
-        v_ = (axis + 2) % 3;
-        for (std::size_t i = 0; i < 3; ++i) {
-            a_[i] = flat(points[a[i]]);
-            b_[i] = flat(points[b[i]]);
-            a_shared_[i] = a[i] == b[0] || a[i] == b[1] || a[i] == b[2];
-            b_shared_[i] = b[i] == a[0] || b[i] == a[1] || b[i] == a[2];
-        }
-    }
-    [[nodiscard]] bool is_apart() const {
-        for (std::size_t i = 0; i < 3; ++i)
-            if (separates(a_, i, b_, b_shared_) || separates(b_, i, a_, a_shared_)) return true;
-        return false;
-    }
-
-private:
-    using Flat = std::array<double, 2>;
-
-    static int largest_normal_axis(std::span<const LatticePoint> points, const IndexedTriangle& t) {
-        const Vector3 p = minus(points[t[1]].doubles(), points[t[0]].doubles());
-        const Vector3 q = minus(points[t[2]].doubles(), points[t[0]].doubles());
-        const std::array<double, 3> n{std::fabs(p[1] * q[2] - p[2] * q[1]),
-                                      std::fabs(p[2] * q[0] - p[0] * q[2]),
-                                      std::fabs(p[0] * q[1] - p[1] * q[0])};
-        return n[0] >= n[1] ? (n[0] >= n[2] ? 0 : 2) : (n[1] >= n[2] ? 1 : 2);
-    }
-    [[nodiscard]] Flat flat(const LatticePoint& p) const {
-        return {p[u_].to_double(), p[v_].to_double()};
-    }
-    // -1, 1, or 0 for unknown.
-    static int turn(const Flat& p, const Flat& q, const Flat& r) {
-        const double left = (q[0] - p[0]) * (r[1] - p[1]);
-        const double right = (q[1] - p[1]) * (r[0] - p[0]);
-        const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
-        const double t = left - right;
-        return t > bound ? 1 : (t < -bound ? -1 : 0);
-    }
-    // The third corner of x strictly on one side of edge i, the corners of y strictly on the other,
-    // except for one that is an end of the edge.
-    static bool separates(const std::array<Flat, 3>& x, std::size_t i, const std::array<Flat, 3>& y,
-                          const std::array<bool, 3>& y_shared) {
-        const Flat& p = x[i];
-        const Flat& q = x[(i + 1) % 3];
-        const int inner = turn(p, q, x[(i + 2) % 3]);
-        if (inner == 0) return false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (y_shared[k] && (y[k] == p || y[k] == q)) continue;
-            if (turn(p, q, y[k]) != -inner) return false;
-        }
-        return true;
-    }
-
-    std::array<Flat, 3> a_, b_;
-    std::array<bool, 3> a_shared_{}, b_shared_{};
-    int u_ = 0, v_ = 0;
-};
 
 void set_signs(Half& h, const Plane& other) {
     for (std::size_t i = 0; i < 3; ++i) h.sign[i] = sign_of(side_of(h.p[i], other));
@@ -268,7 +200,7 @@ PairContact find_contact(std::span<const LatticePoint> points, const IndexedTria
                          const IndexedTriangle& b) {
     const int shared = shared_corners(a, b);
     if (shared == 3) return {};
-    if (shared < 2 && ProjectedFilter(points, a, b).is_apart()) return {};
+    if (are_plainly_apart(points, a, b, shared)) return {};
     Half x{{points[a[0]], points[a[1]], points[a[2]]}, {}, {}};
     Half y{{points[b[0]], points[b[1]], points[b[2]]}, {}, {}};
     x.plane = Plane::through(x.p[0], x.p[1], x.p[2]);

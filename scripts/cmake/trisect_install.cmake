@@ -103,6 +103,7 @@ set(private_headers
     brep/primitives/cap.h
     brep/primitives/circle.h
     brep/validate/checked_mesh.h
+    brep/validate/contact_filter.h
     brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
     brep/validate/fans.h
