@@ -15,13 +15,13 @@
 #include <span>
 #include <utility>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/import/edge_table.h>
 #include <trisect/brep/import/prepared_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/sheet_grid.h>
 #include <trisect/brep/validate/sheets.h>
-#include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/plane.h>

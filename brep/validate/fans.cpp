@@ -15,8 +15,8 @@
 #include <cstddef>
 #include <limits>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/validate/sheets.h>
-#include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/validate/sheet_grid.h>
 #include <trisect/brep/validate/sheets.h>
 #include <trisect/brep/validate/shell_nesting.h>
-#include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/stop_scope.h>
 

@@ -11,9 +11,9 @@
 #include <tuple>
 #include <utility>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/validate/checked_mesh.h>
 #include <trisect/brep/validate/sheets.h>
-#include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>

@@ -103,14 +103,14 @@ set(private_headers
     brep/primitives/cap.h
     brep/primitives/circle.h
     brep/validate/checked_mesh.h
-    brep/validate/contact_filter.h
+    brep/contact/contact_filter.h
     brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
     brep/validate/fans.h
     brep/validate/sheet_grid.h
     brep/validate/sheets.h
     brep/validate/shell_nesting.h
-    brep/validate/triangle_contact.h
+    brep/contact/triangle_contact.h
     brep/validate/triangle_tree.h
     brep/validate/twins.h
     bsp/manifold.h

@@ -12,13 +12,13 @@
 #include <random>
 #include <vector>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/face/loop_triangulator.h>
 #include <trisect/brep/import/line_balance.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
-#include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/kernel/error.h>
 
 #include "support/fractions.h"

@@ -13,10 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/face/region_outline.h>
 #include <trisect/brep/lattice_mesh.h>
 #include <trisect/brep/validate/oriented_box.h>
-#include <trisect/brep/validate/triangle_contact.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/kernel/plane.h>

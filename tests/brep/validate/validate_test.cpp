@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/import_mesh.h>
-#include <trisect/brep/validate/triangle_contact.h>
 
 #include "support/lattice_arithmetic.h"
 #include "support/mesh_builders.h"

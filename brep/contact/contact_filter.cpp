@@ -6,7 +6,7 @@
 // passes through the triangles, seen along an axis. An end of an interval is a quotient of numbers
 // with proved errors; none is divided.
 
-#include <trisect/brep/validate/contact_filter.h>
+#include <trisect/brep/contact/contact_filter.h>
 
 #include <cmath>
 #include <cstddef>

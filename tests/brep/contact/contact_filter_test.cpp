@@ -3,7 +3,7 @@
 // Pairs of triangles that doubles keep apart, against the corners of their intersection in
 // rationals.
 
-#include <trisect/brep/validate/contact_filter.h>
+#include <trisect/brep/contact/contact_filter.h>
 
 #include <algorithm>
 #include <array>

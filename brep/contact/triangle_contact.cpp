@@ -15,14 +15,14 @@
 // Coplanar triangles are compared in a projection: their insides are disjoint iff the line of some
 // edge separates them (the separating axis theorem for convex polygons in the plane).
 
-#include <trisect/brep/validate/triangle_contact.h>
+#include <trisect/brep/contact/triangle_contact.h>
 
 #include <algorithm>
 #include <compare>
 #include <optional>
 #include <utility>
 
-#include <trisect/brep/validate/contact_filter.h>
+#include <trisect/brep/contact/contact_filter.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/predicates.h>
