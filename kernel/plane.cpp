@@ -3,12 +3,14 @@
 #include <trisect/kernel/plane.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/power_of_two.h>
 #include <trisect/kernel/number/vector3.h>
@@ -167,6 +169,18 @@ bool are_whole(const LatticePoint& a, const LatticePoint& b, const LatticePoint&
     return a.is_whole() && b.is_whole() && c.is_whole();
 }
 
+// Whether doubles show that a component of (b - a) × (c - a) is not zero.
+bool have_plain_normal(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+    const detail::Vector3 u = detail::minus(b.doubles(), a.doubles());
+    const detail::Vector3 v = detail::minus(c.doubles(), a.doubles());
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double p = u[(i + 1) % 3] * v[(i + 2) % 3];
+        const double q = u[(i + 2) % 3] * v[(i + 1) % 3];
+        if (std::fabs(p - q) > detail::minor_rounding * (std::fabs(p) + std::fabs(q))) return true;
+    }
+    return false;
+}
+
 bool are_zero(const std::array<WideInt<4>, 3>& n) {
     return n[0].is_zero() && n[1].is_zero() && n[2].is_zero();
 }
@@ -291,6 +305,7 @@ std::array<Plane::Coefficient, 3> Plane::direction() const {
 }
 
 bool are_collinear(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+    if (have_plain_normal(a, b, c)) return false;
     if (!are_whole(a, b, c)) [[unlikely]] {
         const int bits = std::max(
             {detail::fraction_bits(a), detail::fraction_bits(b), detail::fraction_bits(c)});

@@ -411,22 +411,31 @@ Side side_of(const Approximation& approximation, const Plane& p, const Plane& q,
 
 namespace {
 
+// Of a number that is not negative.
+template <int N>
+int used_limbs(const WideInt<N>& v) {
+    int n = N;
+    while (n > 0 && v.limb(n - 1) == 0) --n;
+    return n;
+}
+
 // Of a coordinate and a denominator, which is positive. In loops: unrolled, its 272 products are 25
-// KB of code.
+// KB of code. Most numbers have less than half of the digits.
 WideInt<33> long_product(const WideInt<17>& a, const WideInt<16>& b) {
+    const WideInt<17> size = a.abs();
+    const int a_limbs = used_limbs(size);
+    const int b_limbs = used_limbs(b);
     WideInt<33> out;
-    for (int i = 0; i < 17; ++i) {
+    for (int i = 0; i < a_limbs; ++i) {
         std::uint64_t carry = 0;
-        for (int j = 0; j < 16; ++j) {
-            const Uint128 t = Uint128{a.limb(i)} * b.limb(j) + out.limb(i + j) + carry;
+        for (int j = 0; j < b_limbs; ++j) {
+            const Uint128 t = Uint128{size.limb(i)} * b.limb(j) + out.limb(i + j) + carry;
             out.set_limb(i + j, static_cast<std::uint64_t>(t));
             carry = static_cast<std::uint64_t>(t >> 64);
         }
-        out.set_limb(i + 16, carry);
+        out.set_limb(i + b_limbs, carry);
     }
-    // That counts a negative factor 2^(64 * 17) too large.
-    if (a.is_negative()) out -= WideInt<33>(b).shifted_left(64 * 17);
-    return out;
+    return a.is_negative() ? -out : out;
 }
 
 }  // namespace

@@ -74,10 +74,12 @@ void FacetCutter::cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<Po
 void FacetCutter::cut_small(std::span<const PointId> loop, std::vector<PointId>& out) {
     const PlaneProjection::Axes axes = loops_.axes();
     rounded_.clear();
+    exact_.clear();
+    exact_of_.assign(loop.size(), -1);
     for (const PointId p : loop) add_rounded(p, axes);
     const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const int s = rounded_.turn(a, b, c);
-        return s != 0 ? s : exact_turn(loop[a], loop[b], loop[c], axes);
+        return s != 0 ? s : exact_turn(loop, {a, b, c}, axes);
     };
     // A loop starts at its smallest vertex.
     const auto first_corner = [] { return std::uint32_t{0}; };
@@ -102,9 +104,20 @@ void FacetCutter::add_rounded(PointId p, PlaneProjection::Axes axes) {
     rounded_.add_nearest(at[u] * inverse_unit, at[v] * inverse_unit);
 }
 
-int FacetCutter::exact_turn(PointId a, PointId b, PointId c, PlaneProjection::Axes axes) const {
-    return PlaneProjection::exact_orientation(bench_.homogeneous(a), bench_.homogeneous(b),
-                                              bench_.homogeneous(c), axes);
+// Each corner is computed once: triangles that nearly lie in one plane make rows of corners that
+// nearly lie on one line, where many turns are exact.
+int FacetCutter::exact_turn(std::span<const PointId> loop,
+                            const std::array<std::uint32_t, 3>& corners,
+                            PlaneProjection::Axes axes) {
+    for (const std::uint32_t c : corners) {
+        if (exact_of_[c] >= 0) continue;
+        exact_of_[c] = static_cast<int>(exact_.size());
+        exact_.push_back(bench_.homogeneous(loop[c]));
+    }
+    const auto at = [&](std::size_t i) -> const HomogeneousPoint& {
+        return exact_[as_index(exact_of_[corners[i]])];
+    };
+    return PlaneProjection::exact_orientation(at(0), at(1), at(2), axes);
 }
 
 // Loops [first, end) as one region.

@@ -3,6 +3,7 @@
 // FacetCutter: triangles of the facets of a result that do not pass through.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -55,7 +56,9 @@ private:
     void cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<PointId>& out);
     void cut_small(std::span<const PointId> loop, std::vector<PointId>& out);
     void add_rounded(PointId p, PlaneProjection::Axes axes);
-    [[nodiscard]] int exact_turn(PointId a, PointId b, PointId c, PlaneProjection::Axes axes) const;
+    [[nodiscard]] int exact_turn(std::span<const PointId> loop,
+                                 const std::array<std::uint32_t, 3>& corners,
+                                 PlaneProjection::Axes axes);
     void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
                    std::vector<PointId>& out);
 
@@ -64,7 +67,9 @@ private:
     MadeVertices made_;
     FaceLoops loops_;
     RoundedPolygon rounded_;
-    std::vector<std::uint32_t> local_;  // by PointId, while one face is triangulated
+    std::vector<HomogeneousPoint> exact_;  // of corners of a loop where it was needed
+    std::vector<int> exact_of_;            // by corner of the loop
+    std::vector<std::uint32_t> local_;     // by PointId, while one face is triangulated
     std::vector<PointId> ids_;
     std::vector<Point> points_;
     std::vector<IndexLoop> outline_;
