@@ -124,6 +124,9 @@ private:
         const Triangle& names = mesh_.triangles[t];
         return {mesh_.points[names[0]], mesh_.points[names[1]], mesh_.points[names[2]]};
     }
+    [[nodiscard]] bool have_equal_corners(std::uint32_t t, std::uint32_t other) const {
+        return std::ranges::is_permutation(mesh_.triangles[t], mesh_.triangles[other]);
+    }
     [[nodiscard]] std::uint32_t corner_at(std::uint32_t t, std::uint32_t vertex) const {
         const Triangle& names = mesh_.triangles[t];
         return 3 * t + (names[0] == vertex ? 0U : names[1] == vertex ? 1U : 2U);
@@ -155,6 +158,11 @@ void KindFinder::connect() {
         }
         const std::uint32_t a = uses[0].face();
         const std::uint32_t b = uses[1].face();
+        if (have_equal_corners(a, b)) {  // one lies on the other
+            meets(a);
+            meets(b);
+            return;
+        }
         neighbours_.push_back({a, b});
         for (const std::uint32_t v : {low, high}) fans_.join(corner_at(a, v), corner_at(b, v));
     });

@@ -144,15 +144,33 @@ private:
     std::string text_;
 };
 
+// TRISECT_FUZZ_WORK: how much work an input may take. TRISECT_FUZZ_EVALUATED=N: of programs that
+// are read one of N is evaluated, which their text chooses. Either tries more inputs in the same
+// time.
+std::uint64_t number_of(const char* name, std::uint64_t otherwise) {
+    const char* const text = std::getenv(name);
+    return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+bool is_evaluated(const std::string& text) {
+    static const std::uint64_t one_of =
+        std::max<std::uint64_t>(number_of("TRISECT_FUZZ_EVALUATED", 1), 1);
+    std::uint64_t hash = 1469598103934665603U;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+    return (hash >> 32) % one_of == 0;
+}
+
 void evaluate_text(const std::string& text) {
     trisect::StopLimits limits;
-    limits.max_work = 20'000;
+    static const std::uint64_t most_work = number_of("TRISECT_FUZZ_WORK", 20'000);
+    limits.max_work = most_work;
     limits.max_memory = std::uint64_t{64} << 20;
     const trisect::StopScope scope(limits);
     trisect::CsgOptions options;
     options.reads_files = false;
     options.evaluate.threads = 1;
     const trisect::CsgTree tree = trisect::parse_csg(text, "fuzz");
+    if (!is_evaluated(text)) return;
     trisect::CsgReport report;
     const trisect::Solid solid = trisect::evaluate_csg(tree, options, &report);
     const trisect::PolygonMesh mesh = solid.to_mesh(1);

@@ -49,6 +49,17 @@ TEST(FacetKinds, AShellWithinAnotherOneIsHidden) {
     EXPECT_EQ(counts(together(ball(1, 0), flipped(ball(0.5, 4)))), (Counts{1280, 1280, 0}));
 }
 
+// Found by fuzzing programs: nothing told these from neighbours, and a set without points had a
+// mesh.
+TEST(FacetKinds, TwoTrianglesOfEqualCornersMeet) {
+    PolygonMesh mesh = together(ball(1, 0), ball(1, 5));
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), {{9, 0, 0}, {9, 1, 0}, {9, 0, 1}});
+    mesh.add_triangle(first, first + 1, first + 2);
+    mesh.add_triangle(first + 2, first + 1, first);
+    EXPECT_EQ(counts(mesh), (Counts{2560, 0, 2}));
+}
+
 TEST(FacetKinds, ShellsThatCrossHideWhatLiesInTheOther) {
     const auto [plain, hidden, meets] = counts(together(ball(1, 0), ball(1, 1)));
     EXPECT_GT(plain, 1700);

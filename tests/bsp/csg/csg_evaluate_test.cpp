@@ -274,6 +274,17 @@ TEST(CsgEvaluate, AFlatPolyhedronAddsNothing) {
     EXPECT_EQ(volume_of("union() {" + solid + flat + "}"), volume_of(solid));
 }
 
+// Two triangles are left of it, front and back of one.
+TEST(CsgEvaluate, OfAFlatPolyhedronNothingIsLeft) {
+    const std::string faces = "faces = [[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]]);";
+    const std::string flat =
+        "polyhedron(points = [[10, 1, 10], [10, 10, 10], [10, 10, 10], [10, 10, 45]], " + faces;
+    EXPECT_TRUE(evaluate_csg(parse_csg(flat, "f")).is_empty());
+    EXPECT_EQ(evaluate_csg(parse_csg(flat, "f")).to_mesh().face_count(), 0U);
+    EXPECT_EQ(volume_of("hull() {" + flat + "}"), "0");
+    EXPECT_EQ(volume_of("minkowski() { cube(size = 2);" + flat + "}"), "8");
+}
+
 int code_of(const std::string& text) {
     try {
         (void)volume_of(text);
