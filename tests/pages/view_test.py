@@ -5,8 +5,8 @@
     tests/pages/view_test.py TRISECT [--models FOLDER] [--picks 200] [--screenshots FOLDER]
 
 Of each page: faces hit at pixels (the first hit of the engine is in that face's exact plane), loops of sections across
-axes (their number, corners and area), and exact coordinates of vertices (rounded they are those of the mesh). Exits
-with 77 where there is no Chromium. Needs the Python package.
+axes (their number, corners and area), exact coordinates of vertices (rounded they are those of the mesh), and that a mark
+leaves nothing in the picture. Exits with 77 where there is no Chromium. Needs the Python package.
 """
 
 import argparse
@@ -120,6 +120,8 @@ def main():
             found = ask(browser, page, "report",
                         {"picks": options.picks, "seed": 5, "sections": sections, "vertices": vertices})
             check_picks(solid, found["picks"])
+            if found["marks"]["there"] == 0 or found["marks"]["gone"] != 0:
+                raise SystemExit(f"a mark changes the picture: {found['marks']}")
             check_sections(options.command, files, operation, sections, found["sections"])
             check_vertices(found["vertices"], made=len(files) > 1)
             print(f"{', '.join(pathlib.Path(f).name for f in files)}: {len(found['picks'])} picks, "

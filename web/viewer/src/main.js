@@ -212,10 +212,30 @@ function driver(page) {
       }
       return out;
     },
+    /** Numbers of the picture that a mark changes, and that are others after it has gone. */
+    markChanges(vertex) {
+      const { scene } = page;
+      const gl = scene.renderer.getContext();
+      const pixels = () => {
+        const out = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+        gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, out);
+        return out;
+      };
+      const show = (item) => {
+        scene.highlight(item);
+        scene.drawOverNow();
+        return pixels();
+      };
+      const before = show(null);
+      const differing = (other) => other.reduce((sum, x, i) => sum + (x !== before[i]), 0);
+      const out = { there: differing(show({ kind: 'vertex', number: vertex })) };
+      return { ...out, gone: differing(show(null)) };
+    },
     /** All that a test compares with the engine. */
     report({ picks, seed, sections, vertices }) {
       return {
         picks: this.samples(picks, seed),
+        marks: this.markChanges(page.model.triangles[0]),
         sections: sections.map(([axis, at]) => {
           const loops = page.cut(axis, at);
           return { loops: loops.length, corners: loops.flat().length, area: areaOf(loops, axis) };

@@ -34,20 +34,22 @@ export class Arrays {
 
   /** Differences, the sign in the last bit, seven bits a byte. */
   integers(name) {
-    const out = [];
+    const bytes = this.bytes(name);
+    const out = new Uint32Array(bytes.length);
+    let count = 0;
     let last = 0;
     let value = 0;
     let weight = 1;
-    for (const byte of this.bytes(name)) {
-      value += (byte & 127) * weight;
+    for (let i = 0; i < bytes.length; ++i) {
+      value += (bytes[i] & 127) * weight;
       weight *= 128;
-      if (byte >= 128) continue;
+      if (bytes[i] >= 128) continue;
       last += value % 2 ? -(value + 1) / 2 : value / 2;
-      out.push(last);
+      out[count++] = last;
       value = 0;
       weight = 1;
     }
-    return Uint32Array.from(out);
+    return out.slice(0, count);
   }
 }
 
@@ -70,7 +72,6 @@ export class Model {
       this.faceOfTriangle.fill(f, this.firstTriangle[f], this.firstTriangle[f + 1]);
     this.planes = new Map(); // exact ones, as they are asked for
     this.exactPoints = new Map();
-    this.listTrianglesOfVertices();
     this.findShells();
     this.findBounds();
   }
@@ -90,6 +91,7 @@ export class Model {
   }
 
   facesAt(v) {
+    if (!this.atVertex) this.listTrianglesOfVertices();
     const out = new Set();
     for (let i = this.firstOfVertex[v]; i < this.firstOfVertex[v + 1]; ++i)
       out.add(this.faceOfTriangle[this.atVertex[i]]);

@@ -8,11 +8,14 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 
+import { Overlay } from './overlay.js';
+
 // Okabe and Ito 2008: told apart by all kinds of sight.
 export const palette = [
   '#56b4e9', '#e69f00', '#009e73', '#f0e442', '#cc79a7', '#0072b2', '#d55e00', '#999999',
 ];
 export const mark = '#d01c8b';
+export const manyEdges = 20000; // fewer are no work
 
 export const darkness = window.matchMedia('(prefers-color-scheme: dark)');
 export const restful = window.matchMedia('(prefers-reduced-motion: reduce)');
@@ -34,9 +37,10 @@ export class Picture {
   constructor(canvas, middle, size) {
     this.middle = middle;
     this.size = size;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, stencil: true, alpha: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, stencil: true, alpha: true, preserveDrawingBuffer: true });
     this.renderer.setClearColor(0, 0); // what is behind is the page's colour
     this.renderer.localClippingEnabled = true;
+    this.renderer.autoClear = false;
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(35, 1, size / 1000, size * 20);
     this.camera.up.set(0, 0, 1);
@@ -46,6 +50,8 @@ export class Picture {
     this.sun = new THREE.DirectionalLight('#ffffff', 1.6);
     this.scene.add(this.sun);
     canvas.addEventListener('keydown', (e) => this.turnByKey(e));
+    this.over = new Overlay(this.renderer);
+    this.details = []; // of much work: not in the first picture, nor while pictures take long
   }
 
   // Small numbers, so that single precision is enough.
@@ -54,7 +60,7 @@ export class Picture {
   }
 
   /** Segments of a width in pixels, before all else. */
-  addLine(color, width) {
+  addLine(color, width, scene = this.scene) {
     const out = new LineSegments2(
       new LineSegmentsGeometry(),
       new LineMaterial({ color, linewidth: width, depthTest: false }),
@@ -63,7 +69,7 @@ export class Picture {
     out.frustumCulled = false;
     out.renderOrder = 5;
     out.raycast = () => {};
-    this.scene.add(out);
+    scene.add(out);
     return out;
   }
   setLine(line, ends) {
@@ -123,7 +129,10 @@ export class Picture {
 
   resize() {
     const { clientWidth: w, clientHeight: h } = this.renderer.domElement;
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    const ratio = Math.min(2, window.devicePixelRatio);
+    if (this.extent?.join() === [w, h, ratio].join()) return;
+    this.extent = [w, h, ratio];
+    this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(w, h, false);
     this.camera.aspect = w / Math.max(1, h);
     // Beside the panel, where there is room for both.
@@ -135,14 +144,48 @@ export class Picture {
   }
 
   draw() {
+    this.isStale = true;
+    this.drawOver();
+  }
+  /** Where marks alone have changed. */
+  drawOver() {
     if (this.waiting) return;
     this.waiting = true;
-    soon(() => this.drawNow());
+    soon(() => {
+      if (!this.waiting) return;
+      if (this.isStale) this.drawNow();
+      else this.drawOverNow();
+    });
   }
-  drawNow() {
+  drawOverNow() {
     this.waiting = false;
+    this.over.render(this.camera, true);
+  }
+  /** Details follow when nothing has moved for a while, if the last picture is not there yet. */
+  drawNow() {
+    this.waiting = this.isStale = false;
+    clearTimeout(this.resting);
     this.sun.position.copy(this.camera.position).applyAxisAngle(this.camera.up, 0.5);
+    const details = this.isDrawn() ? [] : this.details.filter((o) => o.visible);
+    for (const o of details) o.visible = false;
+    this.render();
+    for (const o of details) o.visible = true;
+    if (details.length) this.resting = setTimeout(() => this.render(), 150);
+  }
+  render() {
+    const gl = this.renderer.getContext();
+    this.renderer.clear();
     this.renderer.render(this.scene, this.camera);
+    this.over.keep();
+    this.over.render(this.camera, false);
+    gl.deleteSync(this.fence ?? null);
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+  }
+  /** Whether the last picture is there, which is known without waiting for it. */
+  isDrawn() {
+    const gl = this.renderer.getContext();
+    return this.fence && gl.getSyncParameter(this.fence, gl.SYNC_STATUS) === gl.SIGNALED;
   }
 
   /** A ray through a pixel. */

@@ -5,59 +5,67 @@
 import * as THREE from 'three';
 import { MeshBVH, acceleratedRaycast } from 'three-mesh-bvh';
 
-import { Picture, mark, palette, toSegment } from './picture.js';
+import { Picture, manyEdges, mark, palette, toSegment } from './picture.js';
+
+function positionsOf(points, indices, middle) {
+  const [x, y, z] = middle;
+  const out = new Float32Array(3 * indices.length);
+  for (let i = 0; i < indices.length; ++i) {
+    const at = 3 * indices[i];
+    out[3 * i] = points[at] - x;
+    out[3 * i + 1] = points[at + 1] - y;
+    out[3 * i + 2] = points[at + 2] - z;
+  }
+  return out;
+}
+
+function geometryOfFaces(m, middle) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute(
+    'position',
+    new THREE.BufferAttribute(positionsOf(m.points, m.triangles, middle), 3),
+  );
+  const ofOperand = palette.map((name) => {
+    const c = new THREE.Color(name);
+    return [c.r * 255, c.g * 255, c.b * 255];
+  });
+  const colors = new Uint8Array(3 * m.triangles.length);
+  for (let t = 0; t < m.triangleCount; ++t) {
+    const c = ofOperand[m.faceOperand[m.faceOfTriangle[t]] % palette.length];
+    for (let k = 0; k < 9; ++k) colors[9 * t + k] = c[k % 3];
+  }
+  geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3, true));
+  geometry.boundsTree = new MeshBVH(geometry, { indirect: true });
+  return geometry;
+}
 
 export class Scene extends Picture {
   constructor(canvas, model) {
-    super(
-      canvas,
-      model.low.map((l, k) => (l + model.high[k]) / 2),
-      model.size,
-    );
+    const middle = model.low.map((l, k) => (l + model.high[k]) / 2);
+    // Before there is a context of WebGL: a browser that has just begun makes one at the same time.
+    const geometry = geometryOfFaces(model, middle);
+    super(canvas, middle, model.size);
     this.model = model;
     this.plane = new THREE.Plane(new THREE.Vector3(0, 0, -1), 0);
     this.planes = [];
     this.explosion = 0;
-    this.addFaces();
+    this.addFaces(geometry);
     this.addEdges();
     this.addMarks();
     this.addCap();
     this.lookFrom([1, -1.3, 0.9]);
   }
 
-  positionsOf(points, triangles) {
-    const out = new Float32Array(3 * triangles.length);
-    for (let i = 0; i < triangles.length; ++i)
-      for (let k = 0; k < 3; ++k) out[3 * i + k] = points[3 * triangles[i] + k] - this.middle[k];
-    return out;
-  }
-
-  addFaces() {
-    const m = this.model;
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute(
-      'position',
-      new THREE.BufferAttribute(this.positionsOf(m.points, m.triangles), 3),
-    );
-    const colors = new Uint8Array(3 * m.triangles.length);
-    const c = new THREE.Color();
-    for (let t = 0; t < m.triangleCount; ++t) {
-      c.set(palette[m.faceOperand[m.faceOfTriangle[t]] % palette.length]);
-      for (let k = 0; k < 3; ++k)
-        colors.set([c.r * 255, c.g * 255, c.b * 255], 9 * t + 3 * k);
-    }
-    geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3, true));
+  addFaces(geometry) {
     this.material = new THREE.MeshLambertMaterial({
       vertexColors: true,
       flatShading: true,
-      side: THREE.DoubleSide,
       polygonOffset: true,
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
     });
     this.faces = new THREE.Mesh(geometry, this.material);
     this.faces.raycast = acceleratedRaycast;
-    geometry.boundsTree = new MeshBVH(geometry, { indirect: true });
     this.scene.add(this.faces);
   }
 
@@ -66,17 +74,18 @@ export class Scene extends Picture {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute(
       'position',
-      new THREE.BufferAttribute(this.positionsOf(m.points, m.edges), 3),
+      new THREE.BufferAttribute(positionsOf(m.points, m.edges, this.middle), 3),
     );
     this.edges = new THREE.LineSegments(
       geometry,
       new THREE.LineBasicMaterial({ color: '#1d2733', transparent: true, opacity: 0.55 }),
     );
     this.scene.add(this.edges);
+    if (m.edgeCount > manyEdges) this.details.push(this.edges);
   }
 
   addMarks() {
-    this.markedEdge = this.addLine(mark, 4);
+    this.markedEdge = this.addLine(mark, 4, this.over.scene);
     this.measured = this.addLine('#000000', 2);
     this.loops = this.addLine('#d55e00', 3);
     this.markedFace = new THREE.Mesh(
@@ -93,7 +102,7 @@ export class Scene extends Picture {
     for (const o of [this.markedFace, this.markedPoint]) {
       o.visible = false;
       o.frustumCulled = false;
-      this.scene.add(o);
+      this.over.scene.add(o);
     }
   }
 
@@ -131,6 +140,23 @@ export class Scene extends Picture {
     this.scene.add(this.cap);
   }
 
+  /** Backs are seen where faces are cut or moved apart, and from inside. */
+  chooseSide() {
+    const { low, high, facts } = this.model;
+    const inside = this.camera.position
+      .toArray()
+      .every((x, k) => Math.abs(x) < 0.51 * (high[k] - low[k]) + this.size / 500);
+    const isClosed = Number(facts.volume) > 0 && !this.planes.length && !this.explosion && !inside;
+    const side = isClosed ? THREE.FrontSide : THREE.DoubleSide;
+    if (side === this.material.side) return;
+    this.material.side = side;
+    this.material.needsUpdate = true;
+  }
+  render() {
+    this.chooseSide();
+    super.render();
+  }
+
   /** Cuts what lies above `at` along an axis away; nothing where the axis is negative. */
   cut(axis, at, loops) {
     const on = axis >= 0;
@@ -161,7 +187,7 @@ export class Scene extends Picture {
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute(
         'position',
-        new THREE.BufferAttribute(this.positionsOf(points, triangles), 3),
+        new THREE.BufferAttribute(positionsOf(points, triangles, this.middle), 3),
       );
       geometry.computeVertexNormals();
       const mesh = new THREE.Mesh(
@@ -236,11 +262,12 @@ export class Scene extends Picture {
       );
       this.markedFace.visible = true;
     }
-    this.draw();
+    this.drawOver();
   }
 
   /** The first triangle on a ray that is not cut away: its number and the point. */
   hit(raycaster) {
+    this.chooseSide();
     const hits = raycaster.intersectObject(this.faces, false);
     for (const h of hits)
       if (this.planes.every((p) => p.distanceToPoint(h.point) >= 0))

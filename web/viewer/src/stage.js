@@ -5,7 +5,7 @@
 import * as THREE from 'three';
 import { acceleratedRaycast } from 'three-mesh-bvh';
 
-import { Picture, darkness, mark, palette, toSegment } from './picture.js';
+import { Picture, darkness, manyEdges, mark, palette, toSegment } from './picture.js';
 import { Shape } from './shape.js';
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
@@ -68,6 +68,8 @@ export class Stage extends Picture {
     this.frame = 0;
     this.bodies = facts.bodies.map((body) => this.addBody(body));
     if (facts.timeline) this.setFrame(0);
+    const edges = shapes.reduce((sum, s) => sum + s.edges.length / 2, 0);
+    if (edges > manyEdges) this.details = this.bodies.map((body) => body.edges);
     this.addMarks();
     this.lookFrom([1, -1.3, 0.9]);
   }
@@ -151,14 +153,14 @@ export class Stage extends Picture {
     this.chosen = this.addLine(mark, 5);
     this.chosen.renderOrder = 7;
     this.halo.renderOrder = 6;
-    this.hovered = this.addLine(mark, 4);
+    this.hovered = this.addLine(mark, 4, this.over.scene);
     this.markedFaces = [];
     this.facesOfFinding = [];
     this.chosenDots = this.addDots(mark, 17, 8);
     this.haloDots = this.addDots('#ffffff', 23, 7);
   }
 
-  addDots(color, size, order) {
+  addDots(color, size, order, scene = this.scene) {
     const out = new THREE.Points(
       new THREE.BufferGeometry(),
       new THREE.PointsMaterial({
@@ -170,7 +172,7 @@ export class Stage extends Picture {
     out.frustumCulled = false;
     out.renderOrder = order;
     out.raycast = () => {};
-    this.scene.add(out);
+    scene.add(out);
     return out;
   }
   setDots(dots, points) {
@@ -250,7 +252,7 @@ export class Stage extends Picture {
     this.draw();
   }
 
-  faceMark(b, face, opacity) {
+  faceMark(b, face, opacity, parent = this.bodies[b].group) {
     const body = this.bodies[b];
     const mesh = new THREE.Mesh(
       new THREE.BufferGeometry().setAttribute(
@@ -263,8 +265,9 @@ export class Stage extends Picture {
     );
     mesh.raycast = () => {};
     mesh.renderOrder = 4;
-    body.group.add(mesh);
-    mesh.updateMatrixWorld(true);
+    mesh.matrixWorldAutoUpdate = false;
+    mesh.matrixWorld = body.group.matrixWorld; // moves with the body
+    parent.add(mesh);
     return mesh;
   }
 
@@ -338,8 +341,8 @@ export class Stage extends Picture {
         item.kind === 'edge' ? [shape.edges[2 * item.number], shape.edges[2 * item.number + 1]] : [];
       this.setLine(this.hovered, ends.flatMap((v) => this.local(placed(pose, shape.point(v)))));
       if (item.kind !== 'edge')
-        this.markedFaces = [this.faceMark(item.body, item.face, 0.3)];
-      if (!this.hoveredDot) this.hoveredDot = this.addDots(mark, 11, 8);
+        this.markedFaces = [this.faceMark(item.body, item.face, 0.3, this.over.scene)];
+      if (!this.hoveredDot) this.hoveredDot = this.addDots(mark, 11, 8, this.over.scene);
       this.setDots(
         this.hoveredDot,
         item.kind === 'vertex' ? [placed(pose, shape.point(item.number))] : [],
@@ -347,7 +350,7 @@ export class Stage extends Picture {
     } else if (this.hoveredDot) {
       this.setDots(this.hoveredDot, []);
     }
-    this.draw();
+    this.drawOver();
   }
 }
 
