@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "clash_id.h"
+#include "manifest_parts.h"
 #include "outcome.h"
 #include "values.h"
 
@@ -49,11 +50,27 @@ public:
         return finished();
     }
 
+    /// Of parts alone, as they are mostly written; nothing where any is not.
+    std::optional<ManifestShare> read_written(std::string_view text) {
+        WrittenParts parts(text);
+        WrittenPart written;
+        while (parts.next(written)) {
+            ClashPart part;
+            part.name = written.name;
+            part.id = written.id;
+            part.group = group(written.group);
+            set_pose(part, std::span(written.pose).first(written.numbers));
+            add_part(std::move(part), written.file, "a part");
+        }
+        if (!parts.is_whole()) return std::nullopt;
+        return share();
+    }
+
     /// Of parts alone, with their brackets.
     ManifestShare read_share(std::string_view text) {
         for (const Json& p : without_parts(text, 1)) read_part(p);
         if (out_.parts.empty()) fail("a comma without a part");
-        return {std::move(out_.parts), std::move(out_.files), std::move(out_.groups)};
+        return share();
     }
 
     ClashManifest join(std::vector<std::optional<ManifestShare>>& shares, const PartsPlace& place) {
@@ -80,6 +97,10 @@ public:
     }
 
 private:
+    ManifestShare share() {
+        return {std::move(out_.parts), std::move(out_.files), std::move(out_.groups)};
+    }
+
     ClashManifest finished() {
         out_.key = long_text_id(bytes_.view());
         if (out_.sets.empty()) add_default_set();
@@ -101,11 +122,14 @@ private:
         out_.sets.push_back({"all parts", all, all, ClashMode::Intersection, 0});
     }
 
+    // Neighbours are often of one group.
     std::uint32_t group(const std::string& name) {
+        if (last_group_ < out_.groups.size() && out_.groups[last_group_] == name)
+            return last_group_;
         const auto [at, is_new] =
             groups_.try_emplace(name, static_cast<std::uint32_t>(groups_.size()));
         if (is_new) out_.groups.push_back(name);
-        return at->second;
+        return last_group_ = at->second;
     }
 
     std::uint32_t file(const std::string& name) {
@@ -160,7 +184,7 @@ private:
         out_.parts.push_back(std::move(part));
     }
 
-    static void set_pose(ClashPart& part, const std::vector<double>& numbers) {
+    static void set_pose(ClashPart& part, std::span<const double> numbers) {
         if (numbers.size() == 12) std::ranges::copy(numbers, part.pose.begin());
         if (numbers.size() == 3)
             for (std::size_t i = 0; i < 3; ++i) part.pose[4 * i + 3] = numbers[i];
@@ -332,6 +356,7 @@ private:
     std::string file_;
     FileBytes bytes_;
     std::map<std::string, std::uint32_t> groups_;
+    std::uint32_t last_group_ = 0;
     std::unordered_map<std::string, std::uint32_t> files_;
     ClashManifest out_;
 };
@@ -360,6 +385,8 @@ std::optional<ManifestShare> SharedManifest::read(std::size_t share) const {
         std::string text(end - begin + 2, '[');
         manifest.read(begin, std::span(text).subspan(1, end - begin));
         text.back() = ']';
+        const std::string_view inner = std::string_view(text).substr(1, end - begin);
+        if (auto written = ManifestReader(file_).read_written(inner)) return written;
         return ManifestReader(file_).read_share(text);
     } catch (const Error&) {
         return std::nullopt;
