@@ -33,25 +33,73 @@ std::size_t widest_axis(LoadItems items) {
     return best;
 }
 
-// Sorts them along an axis and returns how many are in the lower half of the load; none where all
-// are in one place.
-std::size_t halved(LoadItems items, std::size_t axis) {
-    std::ranges::sort(items, [axis](const ClashLoads::Item& a, const ClashLoads::Item& b) {
-        if (a.middle[axis] != b.middle[axis]) return a.middle[axis] < b.middle[axis];
-        return a.number < b.number;
-    });
-    const double all = load_of(items);
-    const auto differ = [&](std::size_t i) {
-        return items[i - 1].middle[axis] < items[i].middle[axis];
-    };
-    std::size_t at = 0;
-    for (double sum = 0; at < items.size() && sum < all / 2; ++at) sum += items[at].load;
-    // The nearest place between two that differ.
-    for (std::size_t step = 0; step < items.size(); ++step) {
-        if (at >= 1 + step && at - step < items.size() && differ(at - step)) return at - step;
-        if (at + step >= 1 && at + step < items.size() && differ(at + step)) return at + step;
+double highest(LoadItems items, std::size_t axis) {
+    double out = items.front().middle[axis];
+    for (const ClashLoads::Item& item : items) out = std::max(out, item.middle[axis]);
+    return out;
+}
+
+double lowest(LoadItems items, std::size_t axis) {
+    double out = items.front().middle[axis];
+    for (const ClashLoads::Item& item : items) out = std::min(out, item.middle[axis]);
+    return out;
+}
+
+bool are_in_order(const ClashLoads::Item& a, const ClashLoads::Item& b, std::size_t axis) {
+    if (a.middle[axis] != b.middle[axis]) return a.middle[axis] < b.middle[axis];
+    return a.number < b.number;
+}
+
+// How many of the lowest along an axis have half the load; the next one, if there is one, comes to
+// its place in the order.
+std::size_t half_of_load(LoadItems items, std::size_t axis) {
+    const double half = load_of(items) / 2;
+    double before = 0;  // of those below `lo`, which is less than half
+    std::size_t lo = 0;
+    std::size_t hi = items.size();
+    while (hi - lo > 1) {
+        const std::size_t mid = lo + (hi - lo) / 2;
+        const auto at = [&](std::size_t i) {
+            return items.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::nth_element(at(lo), at(mid), at(hi),
+                         [axis](const ClashLoads::Item& a, const ClashLoads::Item& b) {
+                             return are_in_order(a, b, axis);
+                         });
+        const double with = before + load_of(items.subspan(lo, mid - lo));
+        if (with < half) {
+            before = with;
+            lo = mid;
+        } else {
+            hi = mid;
+        }
     }
-    return 0;
+    return hi;
+}
+
+// Puts the lower half of the load along an axis first and returns how many that are; none where
+// all are in one place, and then they are in order. Those in one plane across it stay together.
+std::size_t halved(LoadItems items, std::size_t axis) {
+    const std::size_t at = half_of_load(items, axis);
+    const double value = items[std::min(at, items.size() - 1)].middle[axis];
+    const auto below = [&](const ClashLoads::Item& item) { return item.middle[axis] < value; };
+    const auto not_above = [&](const ClashLoads::Item& item) { return item.middle[axis] <= value; };
+    const auto count = [&](const auto& is_in) {
+        return static_cast<std::size_t>(std::ranges::count_if(items, is_in));
+    };
+    const std::size_t fewer = count(below);
+    const std::size_t more = count(not_above);
+    if (fewer == 0 && more == items.size()) {
+        std::ranges::sort(items, {}, &ClashLoads::Item::number);
+        return 0;
+    }
+    // The nearer one of the two places between two that differ.
+    const bool is_fewer = more == items.size() || (fewer != 0 && at - fewer <= more - at);
+    if (is_fewer)
+        std::partition(items.begin(), items.end(), below);
+    else
+        std::partition(items.begin(), items.end(), not_above);
+    return is_fewer ? fewer : more;
 }
 
 // Counts candidates among neighbours; those of different neighbourhoods are not seen, which makes
@@ -124,7 +172,7 @@ public:
         Node node;
         node.axis = static_cast<std::uint32_t>(axis);
         // Not at the middle of a box: many have theirs in one plane.
-        node.value = items[lower - 1].middle[axis] / 2 + items[lower].middle[axis] / 2;
+        node.value = highest(items.first(lower), axis) / 2 + lowest(items.subspan(lower), axis) / 2;
         Bounds half = cell;
         half.hi[axis] = node.value;
         node.below = build(items.first(lower), half);
