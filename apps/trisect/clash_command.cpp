@@ -196,19 +196,36 @@ private:
     ClashReport report_;
 };
 
+// Of a report that is merged: the page reads each file when it comes to the first of its parts.
+void write_merged_page(Session& session, const ClashOptions& options, const ClashManifest& manifest,
+                       const ClashReport& report) {
+    const std::string text = clash_page(manifest, report, [&](std::uint32_t i) {
+        PlacedPart out;
+        const std::string& file = manifest.files[manifest.parts[i].file];
+        try {
+            out.model = read_clash_file(session, options.operands, file).model;
+        } catch (const Error& e) {
+            if (!is_left_out(e, options)) throw;
+            session.note(std::string("left out: ") + e.what());
+        }
+        return out;
+    });
+    session.write_output(options.page, text);
+}
+
 Outcome merge_shards(Session& session, const ClashOptions& options) {
-    session.plan(2);
+    session.plan(options.page.empty() ? 2 : 3);
     const ClashManifest manifest = read_clash_manifest(options.manifest);
     if (!options.pictures.empty())
         throw UsageError("--pictures: not of reports that are merged, whose parts are not read");
-    if (!options.page.empty())
-        throw UsageError("--page: not of reports that are merged, whose parts are not read");
     const ClashReport report =
         session.stage("merge", [&] { return merged_report(manifest, options.shards); });
     session.stage("write", [&] {
         write_clash_outputs(session, options, manifest, report,
                             [](std::size_t) { return std::string(); });
     });
+    if (!options.page.empty())
+        session.stage("page", [&] { write_merged_page(session, options, manifest, report); });
     Outcome out = clash_outcome(manifest, report);
     out.document["seconds"] = session.seconds();
     return out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -179,6 +180,24 @@ TEST_F(ClashCommand, PageHasClashesAndTheOtherParts) {
     for (const char* name : {"base", "deep", "flush", "near", "far", "bar"})
         EXPECT_NE(text.find(std::string(R"({"name":")") + name + '"'), std::string::npos) << name;
     EXPECT_EQ(run(manifest, {"--page", "-"}).code, 2);
+}
+
+TEST_F(ClashCommand, PageOfMergedReportsIsThatOfTheWhole) {
+    json manifest = plant();
+    manifest["sets"] = json::array({set_of("clearance")});
+    EXPECT_EQ(run(manifest, {"--page", path("whole.html")}).code, 1);
+    const std::string file = path("plant.json");
+    std::vector<std::string> merge{
+        "clash", file, "-o", path("merged.json"), "--page", path("merged.html")};
+    for (const std::string shard : {"1", "2"}) {
+        const std::string report = path("shard" + shard + ".json");
+        EXPECT_LE(trisect({"clash", file, "-o", report, "--shard", shard + "/2"}).code, 1);
+        merge.insert(merge.end(), {"--merge", report});
+    }
+    EXPECT_EQ(trisect(merge).code, 1);
+    EXPECT_EQ(read(path("merged.html")), read(path("whole.html")));
+    std::filesystem::remove(path("bar.obj"));
+    EXPECT_EQ(trisect(merge).code, 3);
 }
 
 }  // namespace
