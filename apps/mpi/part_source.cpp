@@ -156,7 +156,8 @@ PartSurvey PartSource::survey(const RankStart& start, const std::vector<ClashFil
     for (const ManifestShare& share : shares_)
         for (const ClashPart& part : share.parts) {
             try {
-                (void)clash_pose(start.manifest, part.id, part.pose);
+                if (!is_pose_for_certain(part.pose))
+                    (void)clash_pose(start.manifest, part.id, part.pose);
             } catch (const Error&) {
                 if (out.code != 0 && out.failed_part < part.id) continue;
                 const Failure failure = current_failure();

@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <span>
 
@@ -71,6 +74,28 @@ std::vector<Json> missing_files(const std::vector<std::string>& names,
         out.push_back(std::move(record));
     }
     return out;
+}
+
+// Numbers of 53 bits within 2^-64 and 2^64 span fewer bits than a pose may, and no product of three
+// of them leaves the doubles; so the determinant is wrong by less than 2^-48 of the sum of its
+// products.
+bool is_pose_for_certain(const std::array<double, 12>& pose) {
+    constexpr double largest = 0x1p64;
+    static_assert(Pose::bits > 2 * 64 + 53);
+    const auto is_moderate = [](double v) {
+        return v == 0 || (std::abs(v) >= 1 / largest && std::abs(v) <= largest);
+    };
+    if (!std::ranges::all_of(pose, is_moderate)) return false;
+    const auto m = [&](std::size_t i, std::size_t j) { return pose[4 * i + j % 3]; };
+    double determinant = 0;
+    double size = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+        for (const std::size_t turn : {1U, 2U}) {
+            const double product = m(0, j) * m(1, j + turn) * m(2, j + 3 - turn);
+            determinant += turn == 1 ? product : -product;
+            size += std::abs(product);
+        }
+    return std::abs(determinant) > 0x1p-48 * size;
 }
 
 Pose clash_pose(const std::string& manifest, const std::string& part,

@@ -52,6 +52,9 @@ struct ClashFileModel {
                                               const std::vector<ClashFile>& files,
                                               std::vector<std::vector<std::string>> parts);
 
+/// Whether twelve numbers are a pose for certain, by doubles: clash_pose() would not throw.
+[[nodiscard]] bool is_pose_for_certain(const std::array<double, 12>& pose);
+
 /// The exact pose of a part. \throw InputError where it is none
 [[nodiscard]] Pose clash_pose(const std::string& manifest, const std::string& part,
                               const std::array<double, 12>& pose);
