@@ -162,7 +162,8 @@ bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solid
 }
 
 // Where facets across the axes, or few of prisms in one place, have planes in common, one leaf has
-// them all. But prisms whose caps meet are no arrangement of segments.
+// them all. But prisms whose caps meet are no arrangement of segments, and solids within each other
+// are compared with their neighbours.
 bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateSettings& options) {
     if (!are_many_meshes(formula, solids, options)) return false;
@@ -176,7 +177,7 @@ bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& sol
     };
     // Spheres may end in caps.
     if (some_are({0, 4, 2, 1, 3}, [](const PolygonRef& r) { return is_axis_polygon(r); }))
-        return false;
+        return are_nested(solids);
     if (!do_fill_one_place(solids) || do_stand_on_each_other(solids)) return true;
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
@@ -221,7 +222,7 @@ constexpr std::array all_rules{
         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
         "stand on each other, or the first one's has half of all, or the largest one meets more "
         "than 64, or of few facets whose boxes touch or are apart, or of thin facets; none with an "
-        "index, not all across the axes or a leaf of prisms; no limits",
+        "index, not all across the axes, unless nested, or a leaf of prisms; no limits",
         "uncrossed facets, outlines", &Stats::filtered_leaves,
         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",

@@ -441,6 +441,10 @@ private:
     mutable PerThread<CommonPart> common_;
 };
 
+std::int64_t size_of(const Box& b) {
+    return (b.hi[0] - b.lo[0]) + (b.hi[1] - b.lo[1]) + (b.hi[2] - b.lo[2]);
+}
+
 std::vector<OperandShifts::Growth> growths_of(const ManyMeshes& meshes) {
     std::vector<OperandShifts::Growth> out;
     for (std::size_t i = 0; i < meshes.sources.size(); ++i) {
@@ -449,7 +453,8 @@ std::vector<OperandShifts::Growth> growths_of(const ManyMeshes& meshes) {
         // What is left open gets smaller.
         out.push_back(
             {static_cast<std::int8_t>(meshes.operands->operands[i].is_open_below() ? -1 : 1),
-             {middle(0), middle(1), middle(2)}});
+             {middle(0), middle(1), middle(2)},
+             size_of(b)});
     }
     return out;
 }
@@ -593,6 +598,14 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
 bool do_fill_one_place(const SolidStates& solids) { return crowd_of(solids) == Crowd::All; }
 
 bool do_stand_on_each_other(const SolidStates& solids) { return do_stand(boxes_of(solids)); }
+
+bool are_nested(const SolidStates& solids) {
+    std::vector<Box> boxes = boxes_of(solids);
+    std::ranges::sort(boxes, {}, &size_of);
+    return std::ranges::adjacent_find(boxes, [](const Box& inner, const Box& outer) {
+               return size_of(inner) == size_of(outer) || outer.intersected(inner) != inner;
+           }) == boxes.end();
+}
 
 std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula,
                                                     const SolidStates& solids,

@@ -28,6 +28,8 @@ namespace trisect::detail {
 /// Whether boxes of at least half of all end where other ones begin, with a part of a plane in
 /// common. \pre may_be_many_meshes() of some formula. O(n log n)
 [[nodiscard]] bool do_stand_on_each_other(const SolidStates& solids);
+/// Whether each box but the largest lies within the next larger one. \pre as above. O(n log n)
+[[nodiscard]] bool are_nested(const SolidStates& solids);
 
 /// The value of such a formula, with that tree. Nothing where no infinitesimal moves of the meshes
 /// are found that leave nothing of no thickness, or sides are not known. What it returns does not

@@ -17,32 +17,39 @@
 namespace trisect::detail {
 
 OperandShifts::OperandShifts(std::vector<Growth> growths) : growths_(std::move(growths)) {
-    for (Ranks& r : ranks_) {
+    for (Ranks& r : preferred_) {
         r.resize(growths_.size());
         std::iota(r.begin(), r.end(), 0U);
     }
+    Ranks order = preferred_[1];
+    std::ranges::stable_sort(order, std::greater<>(),
+                             [&](std::uint32_t s) { return growths_[s].sign * growths_[s].size; });
+    for (std::uint32_t i = 0; i < order.size(); ++i) preferred_[1][order[i]] = i;
+    ranks_ = {preferred_[0], preferred_[0], preferred_[0], preferred_[1]};
 }
 
-// The lowest slot first of those that may come next.
-std::optional<OperandShifts::Ranks> OperandShifts::ordered(std::size_t slots,
+// Of those that may come next the preferred one first.
+std::optional<OperandShifts::Ranks> OperandShifts::ordered(const Ranks& preferred,
                                                            std::span<const Before> all) {
+    const std::size_t slots = preferred.size();
     std::vector<std::vector<std::uint32_t>> behind(slots);
     std::vector<std::uint32_t> ahead(slots, 0);
     for (const Before& b : all) {
         behind[b.slot].push_back(b.other);
         ++ahead[b.other];
     }
-    std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> next;
+    using Next = std::pair<std::uint32_t, std::uint32_t>;  // the preferred rank, and the slot
+    std::priority_queue<Next, std::vector<Next>, std::greater<>> next;
     for (std::uint32_t s = 0; s < slots; ++s)
-        if (ahead[s] == 0) next.push(s);
+        if (ahead[s] == 0) next.emplace(preferred[s], s);
     Ranks ranks(slots);
     std::uint32_t count = 0;
     for (; !next.empty(); ++count) {
-        const std::uint32_t s = next.top();
+        const std::uint32_t s = next.top().second;
         next.pop();
         ranks[s] = count;
         for (const std::uint32_t o : behind[s])
-            if (--ahead[o] == 0) next.push(o);
+            if (--ahead[o] == 0) next.emplace(preferred[o], o);
     }
     if (count != slots) return std::nullopt;
     return ranks;
@@ -56,7 +63,7 @@ bool OperandShifts::order_growths(std::span<const Wanted> wanted) {
         if (w.growth[0] < 0) all.push_back({w.below, w.above});
         if (w.growth[1] < 0) all.push_back({w.above, w.below});
     }
-    auto ranks = ordered(growths_.size(), all);
+    auto ranks = ordered(preferred_[1], all);
     if (ranks) ranks_[3] = *std::move(ranks);
     return ranks.has_value();
 }
@@ -73,7 +80,7 @@ bool OperandShifts::order_moves(std::span<const Wanted> wanted) {
                                                       : Before{w.below, w.above});
         }
         std::array<std::optional<Ranks>, 3> ranks;
-        for (std::size_t k = 0; k < 3; ++k) ranks[k] = ordered(growths_.size(), all[k]);
+        for (std::size_t k = 0; k < 3; ++k) ranks[k] = ordered(preferred_[0], all[k]);
         if (!ranks[0] || !ranks[1] || !ranks[2]) continue;
         axes_ = axes;
         for (std::size_t k = 0; k < 3; ++k) ranks_[k] = *std::move(ranks[k]);

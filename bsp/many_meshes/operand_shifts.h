@@ -26,6 +26,8 @@ public:
     struct Growth {
         std::int8_t sign = 1;  ///< -1: it shrinks
         LatticePoint centre;
+        std::int64_t size = 0;  ///< of two that grow the larger one grows more, unless something
+                                ///< else is wanted; of two that shrink the smaller one shrinks more
     };
     /// Two operands with facets in one plane, between which nothing must be left: `above` has to be
     /// farther along a direction, by its signs, than `below`. What their growth does for that: 1
@@ -38,7 +40,7 @@ public:
         friend auto operator<=>(const Wanted&, const Wanted&) = default;
     };
 
-    /// All grow, and everything is in the order of the slots.
+    /// All grow by their sizes; all else is in the order of the slots.
     explicit OperandShifts(std::vector<Growth> growths);
     /// Moves that do what is wanted. Nothing where none are found.
     [[nodiscard]] static std::optional<OperandShifts> satisfying(std::vector<Growth> growths,
@@ -64,7 +66,7 @@ private:
         std::uint32_t slot = 0;
         std::uint32_t other = 0;
     };
-    [[nodiscard]] static std::optional<Ranks> ordered(std::size_t slots,
+    [[nodiscard]] static std::optional<Ranks> ordered(const Ranks& preferred,
                                                       std::span<const Before> all);
     [[nodiscard]] bool order_growths(std::span<const Wanted> wanted);
     [[nodiscard]] bool order_moves(std::span<const Wanted> wanted);
@@ -74,7 +76,8 @@ private:
     std::vector<Growth> growths_;  // by slot
     bool do_grow_ = true;          // all of them, or none
     std::array<std::uint8_t, 3> axes_{0, 1, 2};
-    std::array<Ranks, 4> ranks_;  // by axis, and of growths
+    std::array<Ranks, 4> ranks_;      // by axis, and of growths
+    std::array<Ranks, 2> preferred_;  // along axes, and of growths
 };
 
 }  // namespace trisect::detail

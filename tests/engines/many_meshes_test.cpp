@@ -17,6 +17,7 @@
 #include <variant>
 #include <vector>
 
+#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/lazy_tree.h>
@@ -43,9 +44,10 @@ struct Count {
     int by_tree = 0;  // of those, since faces may go straight across each other
 };
 
-// By the rule alone, wherever the meshes lie.
+// By the rule alone, wherever the meshes lie. \pre they are on one lattice
 std::shared_ptr<const SolidState> without_tree(const trisect::Expression& expression,
-                                               std::uint32_t threads = 1) {
+                                               std::uint32_t threads = 1,
+                                               trisect::detail::EvaluateStats* found = nullptr) {
     using namespace trisect::detail;
     const Translation t = translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
@@ -53,8 +55,10 @@ std::shared_ptr<const SolidState> without_tree(const trisect::Expression& expres
     trisect::EvaluateOptions options;
     options.threads = threads;
     trisect::detail::EvaluateStats stats;
-    return evaluate_by({&may_be_many_meshes, &evaluate_many_without_tree}, t.formula, states,
-                       EvaluateSettings{options, SplittingOffset::of_thread()}, stats);
+    auto out = evaluate_by({&may_be_many_meshes, &evaluate_many_without_tree}, t.formula, states,
+                           EvaluateSettings{options, SplittingOffset::of_thread()}, stats);
+    if (found != nullptr) *found = stats;
+    return out;
 }
 
 trisect::Solid by_cells(const trisect::Expression& expression) {
@@ -360,6 +364,35 @@ TEST(ManyMeshes, CornerByCornerLikeCells) {
         }
     }
     EXPECT_EQ(count.without_tree, count.tried);
+}
+
+std::vector<trisect::Point3d> sorted_points(const SolidState& state) {
+    std::vector<trisect::Point3d> points = trisect::detail::assemble_mesh(state).points;
+    std::ranges::sort(points);
+    return points;
+}
+
+// Solids within each other that stand on one plane: the larger ones are moved out of the smaller
+// ones, so that nothing crosses and each step leaves what it has of one of them.
+TEST(ManyMeshes, NestedOnOnePlaneDoNotCross) {
+    std::vector<trisect::Solid> solids;
+    for (int i = 0; i < 9; ++i) {
+        const double size = 20 - 2 * (i * 4 % 9);
+        solids.push_back(
+            trisect::Solid::from_mesh(trisect::make_box({-size, -size, 0}, {size, size, size})));
+    }
+    const auto rest = std::span(solids).subspan(1);
+    for (const trisect::Expression& e :
+         {trisect::Expression::any_of(solids), trisect::Expression::all_of(solids),
+          solids[0] & trisect::Expression::any_of(rest),
+          trisect::Expression::any_of(rest) - solids[0]}) {
+        trisect::detail::EvaluateStats stats;
+        const auto state = without_tree(e, 1, &stats);
+        ASSERT_NE(state, nullptr);
+        EXPECT_EQ(stats.pairs_cutting, 0U);
+        EXPECT_EQ(engines::open_edge(trisect::detail::assemble_mesh(*state)), "");
+        EXPECT_EQ(sorted_points(*state), sorted_points(*trisect::detail::state_of(by_cells(e))));
+    }
 }
 
 // Whichever thread makes them.
