@@ -158,11 +158,13 @@ public:
           search_(two.nodes, options, memory, parallel) {}
 
     [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats) {
+        if (are_flush_on_both_sides()) {
+            start(recognises_equal);
+            if (auto out = find_growing(FoundPairs(), stats)) return out;
+        }
         FoundPairs out;
         InfinitesimalShift shift = first_shift();
-        search_.recognises_equal = recognises_equal;
-        search_.keeps_sides = false;
-        search_.parts = {near_};
+        start(recognises_equal);
         // One finds equal facets, one another direction, which is as wanted.
         for (int turn = 0; turn < 3; ++turn) {
             out.crossings = operands_;
@@ -191,6 +193,12 @@ public:
     }
 
 private:
+    void start(bool recognises_equal) {
+        search_.recognises_equal = recognises_equal;
+        search_.keeps_sides = false;
+        search_.parts = {near_};
+    }
+
     // No direction is as wanted: the second mesh grows or shrinks.
     [[nodiscard]] std::optional<FoundPairs> find_growing(FoundPairs out, EvaluateStats& stats) {
         search_.keeps_sides = true;
@@ -200,6 +208,10 @@ private:
             out.crossings.shift = shift;
             EvaluateStats found;
             const PairSearch::Outcome outcome = search_.run(out.crossings, found);
+            if (outcome.has_equal) {
+                leave_out_equal(out);
+                continue;
+            }
             if (!outcome.is_certain) return std::nullopt;
             out.shares_facets =
                 out.shares_facets || std::ranges::any_of(outcome.sides, &WantedSide::is_wish);
@@ -220,9 +232,23 @@ private:
         InfinitesimalShift shift;
         const Box& b = two_.common;
         const auto middle = [&](std::size_t k) { return b.lo[k] + (b.hi[k] - b.lo[k]) / 2; };
-        shift.growth = 1;
+        shift.growth = are_flush_on_both_sides() && !operands_.operands[0].is_open_below() ? -1 : 1;
         shift.centre = {middle(0), middle(1), middle(2)};
         return shift;
+    }
+
+    // Whether one mesh is taken from the other one, on which it does not stand, and their boxes
+    // begin and end at the same places along an axis: facets there would want opposite directions.
+    [[nodiscard]] bool are_flush_on_both_sides() const {
+        if (operands_.operands[0].inside_above == operands_.operands[1].inside_above) return false;
+        const Box& a = two_.source(0).box();
+        const Box& b = two_.source(1).box();
+        bool are_flush = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (a.lo[k] == b.hi[k] || b.lo[k] == a.hi[k]) return false;
+            are_flush = are_flush || (a.lo[k] == b.lo[k] && a.hi[k] == b.hi[k]);
+        }
+        return are_flush;
     }
 
     // Where one mesh stands on the other, the direction that will be wanted.
