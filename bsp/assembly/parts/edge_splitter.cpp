@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every vertex against every edge would be quadratic. Few candidates are sorted along one axis, and
-// an edge looks at those between its ends; many are in a tree of boxes. Doubles with bounds leave
-// those that may lie on the edge to the exact predicates: on both planes of its line, and between
-// its ends along an axis.
+// an edge looks at those between its ends; many are in a grid, and for long edges in a tree of
+// boxes. Doubles with bounds leave those that may lie on the edge to the exact predicates: on both
+// planes of its line, and between its ends along an axis.
 
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 
@@ -37,6 +37,9 @@ public:
             hi_[k] = std::max(a[k], b[k]) + error_;
         }
     }
+    // The box of points that it may contain.
+    [[nodiscard]] const std::array<double, 3>& low() const { return lo_; }
+    [[nodiscard]] const std::array<double, 3>& high() const { return hi_; }
     [[nodiscard]] bool may_contain(const std::array<double, 3>& p) const {
         for (std::size_t k = 0; k < 3; ++k)
             if (p[k] < lo_[k] || p[k] > hi_[k]) return false;
@@ -89,6 +92,7 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
 void EdgeSplitter::clear() {
     for (const Candidate& c : candidates_) rank_[as_index(c.point)] = -1;
     candidates_.clear();
+    are_many_ = false;
     boxes_.clear();
     known_.clear();
     known_edges_.clear();
@@ -101,9 +105,26 @@ void EdgeSplitter::add_candidate(PointId p) {
     candidates_.push_back({bench_.approximation(p).c, p});
 }
 
+// Along the longest axis; of a fifth of the edges that or less. Looks at some.
+double EdgeSplitter::short_length(std::span<const BoundaryEdge> edges) const {
+    std::vector<double> lengths;
+    constexpr std::size_t most = 512;
+    const std::size_t step = 1 + edges.size() / most;
+    for (std::size_t i = 0; i < edges.size(); i += step) {
+        const std::array<double, 3>& a = bench_.approximation(edges[i].from).c;
+        const std::array<double, 3>& b = bench_.approximation(edges[i].to).c;
+        const std::size_t axis = longest_axis(a, b);
+        lengths.push_back(std::fabs(a[axis] - b[axis]));
+    }
+    if (lengths.empty()) return 0;
+    const auto fifth = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 5);
+    std::ranges::nth_element(lengths, fifth);
+    return *fifth;
+}
+
 // Along the axis on which the candidates extend farthest; on another one all may be equal, and
 // every edge would look at all of them.
-void EdgeSplitter::sort_candidates() {
+void EdgeSplitter::sort_candidates(std::span<const BoundaryEdge> edges) {
     std::array<double, 3> lo;
     std::array<double, 3> hi;
     lo.fill(HUGE_VAL);
@@ -117,7 +138,8 @@ void EdgeSplitter::sort_candidates() {
             hi[k] = std::max(hi[k], c.c[k]);
         }
     }
-    if (candidates_.size() > few) return boxes_.build(candidates_);
+    are_many_ = candidates_.size() > few;
+    if (are_many_) return grid_.build(candidates_, 3 * short_length(edges));
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
         if (hi[k] - lo[k] > hi[axis] - lo[axis]) axis = k;
@@ -131,7 +153,7 @@ void EdgeSplitter::sort_candidates() {
 
 // Points of all edges that have looked stay in a row, those of the last one behind.
 EdgeSplitter::Inside EdgeSplitter::find_once(const BoundaryEdge& e) {
-    if (boxes_.is_empty()) {
+    if (!are_many_) {
         inside_.clear();
         find_inside(e);
         return {e.from, 0, static_cast<std::uint32_t>(inside_.size())};
@@ -149,10 +171,10 @@ EdgeSplitter::Inside EdgeSplitter::find_once(const BoundaryEdge& e) {
 
 void EdgeSplitter::find_inside(const BoundaryEdge& e) {
     const std::size_t first = inside_.size();
-    if (boxes_.is_empty()) {
-        find_inside_sorted(e);
+    if (are_many_) {
+        find_inside_near(e);
     } else {
-        find_inside_boxes(e);
+        find_inside_sorted(e);
     }
     if (inside_.size() > first + 1)
         sort_inside(e, separating_axis(bench_, e.from, e.to), std::span(inside_).subspan(first));
@@ -184,15 +206,17 @@ void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e) {
         if (it != from && it != to && filter.may_contain(it->c)) look_at(e, *it);
 }
 
-void EdgeSplitter::find_inside_boxes(const BoundaryEdge& e) {
+void EdgeSplitter::find_inside_near(const BoundaryEdge& e) {
     const std::array<double, 3>& from = bench_.approximation(e.from).c;
     const std::array<double, 3>& to = bench_.approximation(e.to).c;
     const EdgeFilter filter(from, to, 3 * widest_);
-    boxes_.for_each_near(
-        from, to, error_slack * (3 * widest_), [&](std::span<const Candidate> candidates) {
-            for (const Candidate& c : candidates)
-                if (filter.may_contain(c.c) && c.point != e.from && c.point != e.to) look_at(e, c);
-        });
+    const auto look_at_all = [&](std::span<const Candidate> candidates) {
+        for (const Candidate& c : candidates)
+            if (filter.may_contain(c.c) && c.point != e.from && c.point != e.to) look_at(e, c);
+    };
+    if (grid_.for_each_near(filter.low(), filter.high(), look_at_all)) return;
+    if (boxes_.is_empty()) boxes_.build(candidates_);
+    boxes_.for_each_near(from, to, error_slack * (3 * widest_), look_at_all);
 }
 
 void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const {
@@ -203,7 +227,7 @@ void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis, std::span<PointI
 }
 
 void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out) {
-    sort_candidates();
+    sort_candidates(edges);
     inside_.clear();
     for (const BoundaryEdge& e : edges) {
         const Inside found = find_once(e);

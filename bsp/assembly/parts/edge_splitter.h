@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
+#include <trisect/bsp/assembly/parts/vertex_grid.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/kernel/support/flat_map.h>
 
@@ -17,9 +18,9 @@ namespace trisect::detail {
 
 /// Splits edges at the candidate vertices that lie inside them. Holds scratch memory.
 ///
-/// An edge looks at few candidates that are not near it: O(log n) boxes of a tree over them where
-/// they are many, else those whose range along the longest axis meets its own. Of many, edges with
-/// the same ends look once: mostly two facets have one.
+/// An edge looks at few candidates that are not near it: where they are many, some cubes of a grid,
+/// or, if it is long, O(log n) boxes of a tree over them; else those whose range along the longest
+/// axis meets its own. Of many, edges with the same ends look once: mostly two facets have one.
 class EdgeSplitter {
 public:
     EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
@@ -32,7 +33,8 @@ public:
 
 private:
     using Candidate = VertexBoxes::Vertex;
-    void sort_candidates();
+    void sort_candidates(std::span<const BoundaryEdge> edges);
+    [[nodiscard]] double short_length(std::span<const BoundaryEdge> edges) const;
     struct Inside {
         PointId from = -1;        // an end of the edge that has looked
         std::uint32_t first = 0;  // of inside_
@@ -41,14 +43,16 @@ private:
     [[nodiscard]] Inside find_once(const BoundaryEdge& e);
     void find_inside(const BoundaryEdge& e);
     void find_inside_sorted(const BoundaryEdge& e);
-    void find_inside_boxes(const BoundaryEdge& e);
+    void find_inside_near(const BoundaryEdge& e);
     void look_at(const BoundaryEdge& e, const Candidate& candidate);
     void sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const;
 
     const Workbench& bench_;
     const std::vector<BoundaryFacet>& facets_;
     std::vector<Candidate> candidates_;
-    VertexBoxes boxes_;               // of many candidates
+    bool are_many_ = false;
+    VertexGrid grid_;                 // of many candidates
+    VertexBoxes boxes_;               // of these, once an edge is long
     std::vector<std::int32_t> rank_;  // by point: its place among the candidates, -1 is none
     std::size_t axis_ = 0;            // that they are sorted along
     double widest_ = 0;               // error of a candidate
