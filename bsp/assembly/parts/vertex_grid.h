@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// VertexGrid: a grid of cubes over vertices, to find those near a short edge.
+// VertexGrid: a grid over vertices, to find those near short edges.
 #pragma once
 
 #include <algorithm>
