@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <string_view>
@@ -218,15 +219,25 @@ private:
         });
     }
 
+    /// One that is misspelt would be left out without a word.
+    void expect_members(const Json& object, std::initializer_list<std::string_view> known,
+                        const std::string& where) const {
+        for (const auto& [name, value] : object.items())
+            if (std::ranges::find(known, name) == known.end())
+                fail(fmt::format("{}: '{}' is not known", where, name.substr(0, 40)));
+    }
+
     void read_sets(const Json& document) {
+        expect_members(document, {"parts", "sets"}, "the manifest");
         if (!document.contains("sets")) return;
         for (const Json& s : document.at("sets")) read_set(s);
     }
 
     void read_part(const Json& p) {
         const std::string where = fmt::format("part {}", out_.parts.size());
+        expect_members(p, {"file", "name", "id", "group", "pose"}, where);
         ClashPart part;
-        const std::string of_file = p.at("file").get<std::string>();
+        const std::string of_file = p.value("file", std::string());
         part.name = p.value("name", std::string());
         part.id = p.value("id", std::string());
         part.group = group(p.value("group", std::string()));
@@ -256,6 +267,8 @@ private:
         ClashSet set;
         set.name = s.value("name", fmt::format("set {}", out_.sets.size()));
         const std::string where = fmt::format("set '{}'", set.name);
+        expect_members(s, {"name", "a", "b", "mode", "allow_touching", "clearance"}, where);
+        if (!s.contains("a")) fail(where + ": 'a' is missing, a group or a list of them");
         set.a = groups_of(s.at("a"), where);
         set.b = s.contains("b") ? groups_of(s.at("b"), where) : set.a;
         const std::string mode = s.value("mode", std::string("intersection"));
@@ -267,6 +280,7 @@ private:
         else if (mode != "intersection" && mode != "collision")
             fail(fmt::format("{}: mode is intersection, collision or clearance", where));
         if (set.mode == ClashMode::Clearance) {
+            if (!s.contains("clearance")) fail(where + ": 'clearance' is missing");
             set.clearance = s.at("clearance").get<double>();
             if (!(set.clearance >= 0) || !std::isfinite(set.clearance))
                 fail(where + ": a clearance that is no distance");

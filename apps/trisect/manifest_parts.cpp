@@ -9,7 +9,6 @@
 namespace trisect::app {
 namespace {
 
-constexpr int most_depth = 100;       // of values that are passed over
 constexpr int digits_of_an_int = 15;  // doubles hold all of so many
 
 enum Member : unsigned { File = 1, Name = 2, Id = 4, Group = 8, PoseOf = 16, Other = 0 };
@@ -110,7 +109,7 @@ bool WrittenParts::member(WrittenPart& part) {
         case PoseOf:
             return pose(part);
         case Other:
-            return value(0);
+            break;
     }
     return false;
 }
@@ -215,32 +214,6 @@ bool WrittenParts::beyond_ascii(std::string& out) {
     out.append(at_, at_ + length);
     at_ += length;
     return true;
-}
-
-// Any, which is passed over.
-bool WrittenParts::value(int depth) {
-    skip_space();
-    if (at_ == end_ || depth > most_depth) return false;
-    switch (*at_) {
-        case '"':
-            return string(unused_);
-        case 't':
-            return word("true");
-        case 'f':
-            return word("false");
-        case 'n':
-            return word("null");
-        case '[':
-            ++at_;
-            return list(']', [&] { return value(depth + 1); });
-        case '{':
-            ++at_;
-            return list('}', [&] { return string(unused_) && is_next(':') && value(depth + 1); });
-        default: {
-            double unused = 0;
-            return number(unused);
-        }
-    }
 }
 
 }  // namespace trisect::app

@@ -20,7 +20,7 @@ struct WrittenPart {
 
 /// Reads parts as most manifests have them, without a document of JSON, in a tenth of the time. It
 /// takes nothing that is not JSON, and gives what a document would; what it does not take may be
-/// JSON all the same (a member twice, a pose of four numbers), which another reader is to say.
+/// JSON all the same (a member twice, one that is not known, a pose of four numbers), which another reader is to say.
 class WrittenParts {
 public:
     /// \param text objects with commas between them, without brackets around; outlives this
@@ -41,7 +41,6 @@ private:
     bool number(double& out);
     bool digits();
     bool pose(WrittenPart& part);
-    bool value(int depth);
     template <typename Item>
     bool list(char end, const Item& item);
     bool word(std::string_view text);
@@ -50,7 +49,7 @@ private:
 
     const char* at_;
     const char* end_;
-    std::string key_, unused_;
+    std::string key_;
     unsigned seen_ = 0;  // members of this part, a bit each
     bool is_first_ = true;
     bool is_whole_ = false;

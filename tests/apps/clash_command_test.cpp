@@ -160,6 +160,22 @@ TEST_F(ClashCommand, MistakesInManifests) {
     json manifest = plant();
     manifest["parts"].push_back(manifest["parts"][0]);
     EXPECT_EQ(run(manifest).code, 3);  // two parts of one name
+    // What is misspelt is not left out.
+    manifest = plant();
+    manifest["parts"][0]["position"] = {1, 2, 3};
+    EXPECT_EQ(run(manifest).code, 3);
+    EXPECT_NE(run(manifest).err.find("part 0: 'position' is not known"), std::string::npos);
+    manifest = plant();
+    manifest["clash_sets"] = json::array();
+    EXPECT_NE(run(manifest).err.find("the manifest: 'clash_sets' is not known"), std::string::npos);
+    manifest = plant();
+    manifest["sets"] = {{{"name", "s"}, {"between", "steel"}}};
+    EXPECT_NE(run(manifest).err.find("set 's': 'between' is not known"), std::string::npos);
+    manifest["sets"] = {{{"name", "s"}}};
+    EXPECT_NE(run(manifest).err.find("set 's': 'a' is missing"), std::string::npos);
+    manifest = plant();
+    manifest["parts"][0].erase("file");
+    EXPECT_NE(run(manifest).err.find("part 0 has no file"), std::string::npos);
     manifest = plant();
     manifest["sets"] = {{{"a", "nobody"}}};
     EXPECT_EQ(run(manifest).code, 3);

@@ -68,17 +68,15 @@ bool check(const std::string& text) {
 }
 
 TEST(WrittenParts, TakesWhatProgramsWrite) {
-    for (
-        const char* const text : {
-            R"({"file": "a.off"})",
-            R"( { "file" : "a.off" , "name":"x","id":"7" , "group" : "" } , {"file":""} )",
-            R"({"file": "a.off", "pose": [1, 0, 0, -200, 0.6, -0.8, 0, 2.5e-3, 0, 0, 1E+2, -0]})",
-            R"({"pose": [-0, -0.0, 0e5], "file": "\u00e4\ud83d\ude00 \"\\\/\b\f\n\r\t"})",
-            "{\"file\": \"\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80\"}",
-            R"({"file": "a", "more": {"a": [1, {}, [], "]", null, true, false, -1.5e3]}, "more": 2})",
-            R"({"file": "a", "pose": [9007199254740993, 123456789012345678901234567890, 1e-310]})",
-            R"({"file": "a", "pose": [999999999999999, -9999999999999999, 18446744073709551617]})",
-        })
+    for (const char* const text : {
+             R"({"file": "a.off"})",
+             R"( { "file" : "a.off" , "name":"x","id":"7" , "group" : "" } , {"file":""} )",
+             R"({"file": "a.off", "pose": [1, 0, 0, -200, 0.6, -0.8, 0, 2.5e-3, 0, 0, 1E+2, -0]})",
+             R"({"pose": [-0, -0.0, 0e5], "file": "\u00e4\ud83d\ude00 \"\\\/\b\f\n\r\t"})",
+             "{\"file\": \"\xc3\xa4\xe2\x82\xac\xf0\x9f\x98\x80\"}",
+             R"({"file": "a", "pose": [9007199254740993, 123456789012345678901234567890, 1e-310]})",
+             R"({"file": "a", "pose": [999999999999999, -9999999999999999, 18446744073709551617]})",
+         })
         EXPECT_TRUE(check(text)) << text;
 }
 
@@ -121,10 +119,9 @@ TEST(WrittenParts, LeavesWhatIsOddToOthers) {
              R"({"file": "a)",
              R"({"file" "a"})",
              R"({"file": "a", "more": tru})",
+             R"({"file": "a", "more": 1})",
          })
         EXPECT_FALSE(taken(text)) << text;
-    EXPECT_FALSE(
-        taken(R"({"file": "a", "more": )" + std::string(200, '[') + std::string(200, ']') + "}"));
 }
 
 // Parts as they are written by programs, with some bytes changed.
@@ -133,13 +130,12 @@ TEST(WrittenParts, WhatIsTakenIsWhatADocumentHas) {
     const auto below = [&](std::size_t n) {
         return std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
     };
-    const std::vector<std::string> pieces = {
-        R"({"file": "a.off"})",
-        R"({"file":"b","name":"n","id":"i","group":"g"})",
-        R"({"file": "c", "pose": [1, 2.5, -3e-7]})",
-        R"({"file": "d", "pose": [1,0,0,0,0,1,0,0,0,0,1,-0]})",
-        R"({"file": "\u00e4\ud83d\ude00\n", "extra": {"k": [1, null, "x"]}})",
-        "{\"file\": \"\xc3\xa4\xf0\x9f\x98\x80\"}"};
+    const std::vector<std::string> pieces = {R"({"file": "a.off"})",
+                                             R"({"file":"b","name":"n","id":"i","group":"g"})",
+                                             R"({"file": "c", "pose": [1, 2.5, -3e-7]})",
+                                             R"({"file": "d", "pose": [1,0,0,0,0,1,0,0,0,0,1,-0]})",
+                                             R"({"file": "\u00e4\ud83d\ude00\n", "id": "\u0041"})",
+                                             "{\"file\": \"\xc3\xa4\xf0\x9f\x98\x80\"}"};
     const std::string_view bytes = "{}[]\",:\\u0d8\xc3\xa4\xed\xf4\x80-+.eE019nt \n/";
     std::size_t count = 0;
     for (int i = 0; i < 40000; ++i) {
