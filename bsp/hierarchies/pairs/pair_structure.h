@@ -79,8 +79,9 @@ public:
     [[nodiscard]] std::optional<Relation> early_relation(CostCounters& counters);
 
     /// Volumes of a tree's first levels, a parent before its children, in the user's units of A:
-    /// around A, or around B as they are at the current pose. None where the structure has no tree
-    /// of volumes, or doubles do not suffice for the pose. \pre place() was called
+    /// around A, or around B as they are at the current pose. Of partitions the cells of A; B has
+    /// none. None where the structure has neither, or doubles do not suffice for the pose. \pre
+    /// place() was called
     [[nodiscard]] std::vector<VolumeOutline> outlines_of_a(unsigned levels);
     [[nodiscard]] std::vector<VolumeOutline> outlines_of_b(unsigned levels);
 

@@ -27,6 +27,14 @@ public:
     /// To be called when all cells are filled.
     void close();
 
+    [[nodiscard]] Box box_of(const CellPlace& place) const {
+        Box box{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.lo[k] = size_ * place[k];
+            box.hi[k] = size_ * (place[k] + 1.0);
+        }
+        return box;
+    }
     [[nodiscard]] CellRange range_of(const Box& box) const {
         return CellRange::of(box.lo, box.hi, size_);
     }

@@ -82,6 +82,14 @@ protected:
         for (const std::uint32_t i : large_) limit = offer(i);
         (void)grid_.near(grid_.range_of(box), limit, counters, offer);
     }
+    /// One level. Triangles that are in no cell are not shown.
+    [[nodiscard]] std::vector<VolumeOutline> list_cells(unsigned /*levels*/) const override {
+        std::vector<VolumeOutline> out;
+        const CellLists& cells = grid_.cells();
+        for (std::size_t c = 0; cells.size() <= most_shown_cells && c < cells.size(); ++c)
+            out.push_back(outline_of(grid_.box_of(cells.place(c)), 0, true));
+        return out;
+    }
 
 private:
     // Those of its box that the triangle may meet.

@@ -77,6 +77,20 @@ protected:
         for (const GridLevel& level : levels_)
             limit = level.near(reach_of(box, level), limit, counters, offer);
     }
+    /// The coarsest grid first, each cell with the next ones, which its triangles may reach into.
+    [[nodiscard]] std::vector<VolumeOutline> list_cells(unsigned levels) const override {
+        std::vector<VolumeOutline> out;
+        for (unsigned i = 0; i < std::min<std::size_t>(levels, levels_.size()); ++i) {
+            const CellLists& cells = levels_[i].cells();
+            if (out.size() + cells.size() > most_shown_cells) break;
+            for (std::size_t c = 0; c < cells.size(); ++c) {
+                Box box = levels_[i].box_of(cells.place(c));
+                for (double& hi : box.hi) hi += levels_[i].size();
+                out.push_back(outline_of(box, i, true));
+            }
+        }
+        return out;
+    }
 
 private:
     static CellPlace corner_of(const Box& box, const GridLevel& level) {

@@ -11,6 +11,7 @@
 #include <trisect/bsp/hierarchies/partitions/partition.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <trisect/bsp/interference/boxes/box_gap.h>
@@ -64,6 +65,19 @@ void Partition::find_near(double limit, NearVisit visit, CostCounters& counters)
         };
         find_near_cells(box, limit, offer, counters);
     }
+}
+
+VolumeOutline Partition::outline_of(const Box& cell, unsigned level, bool is_leaf) const {
+    VolumeOutline out;
+    out.level = level;
+    out.is_leaf = is_leaf;
+    const int exponent = model_a().lattice().exponent;
+    for (std::size_t k = 0; k < 3; ++k) {
+        Slab slab{{}, std::ldexp(cell.lo[k], exponent), std::ldexp(cell.hi[k], exponent)};
+        slab.direction[k] = 1;
+        out.slabs.push_back(slab);
+    }
+    return out;
 }
 
 }  // namespace trisect::hierarchies

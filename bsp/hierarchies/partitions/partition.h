@@ -35,6 +35,14 @@ protected:
                                  FunctionRef<double(std::uint32_t)> offer,
                                  CostCounters& counters) = 0;
 
+    /// Cells of the first levels, a parent before its children; none where they are no boxes, or
+    /// more than a picture shows. Of trees only cells that have triangles.
+    [[nodiscard]] virtual std::vector<VolumeOutline> list_cells(unsigned /*levels*/) const {
+        return {};
+    }
+    static constexpr std::size_t most_shown_cells = 20'000;
+    [[nodiscard]] VolumeOutline outline_of(const Box& cell, unsigned level, bool is_leaf) const;
+
     /// The same for a triangle of B by its number; by its box unless overridden.
     virtual bool find_for(std::uint32_t b, FunctionRef<bool(std::uint32_t)> offer,
                           CostCounters& counters) {
@@ -44,6 +52,10 @@ protected:
     void update(CostCounters& counters) override;
     bool find_candidates(PairVisit visit, CostCounters& counters) override;
     void find_near(double limit, NearVisit visit, CostCounters& counters) override;
+    /// B has no cells.
+    std::vector<VolumeOutline> list_outlines(bool of_b, unsigned levels) override {
+        return of_b ? std::vector<VolumeOutline>() : list_cells(levels);
+    }
 
     [[nodiscard]] const TriangleBoxes& fixed() const { return fixed_; }
     [[nodiscard]] const TriangleBoxes& moved() const { return moved_; }

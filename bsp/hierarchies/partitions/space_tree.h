@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/hierarchies/pairs/triangle_boxes.h>
@@ -42,6 +43,22 @@ public:
                        CostCounters& counters);
     void find_near_cells(const Box& box, double limit, FunctionRef<double(std::uint32_t)> offer,
                          CostCounters& counters);
+
+    /// visit(cell, level, is_leaf) for the cells of the first levels, a parent before its children.
+    template <class Visit>
+    void for_each_cell(unsigned levels, Visit&& visit) const {
+        std::vector<std::uint32_t> nodes{0};
+        for (unsigned level = 0; level < levels && !nodes.empty(); ++level) {
+            std::vector<std::uint32_t> children;
+            for (const std::uint32_t n : nodes) {
+                const Node& node = nodes_[n];
+                visit(node.cell, level, node.is_leaf);
+                for (std::uint32_t c = 0; !node.is_leaf && c < node.count; ++c)
+                    children.push_back(node.first + c);
+            }
+            nodes = std::move(children);
+        }
+    }
 
     [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
     [[nodiscard]] std::size_t entry_count() const { return entries_.size(); }

@@ -33,6 +33,13 @@ protected:
                          CostCounters& counters) override {
         tree_.find_near_cells(box, limit, offer, counters);
     }
+    [[nodiscard]] std::vector<VolumeOutline> list_cells(unsigned levels) const override {
+        std::vector<VolumeOutline> out;
+        tree_.for_each_cell(levels, [&](const Box& cell, unsigned level, bool is_leaf) {
+            out.push_back(outline_of(cell, level, is_leaf));
+        });
+        return out;
+    }
 
 private:
     std::string_view name_;

@@ -182,7 +182,7 @@ export class HierarchyPage extends StagePage {
     if (!volumes) {
       this.stage.setLine(this.lineA, []);
       this.stage.setLine(this.lineB, []);
-      this.levelText.textContent = `${name} has no tree of volumes to be drawn`;
+      this.levelText.textContent = `${name} has no volumes to be drawn`;
       this.shown = { structure: name, a: 0, b: 0 };
       return this.stage.draw();
     }
@@ -191,7 +191,9 @@ export class HierarchyPage extends StagePage {
     this.stage.setLine(this.lineA, local(a.ends));
     this.stage.setLine(this.lineB, local(b.ends));
     this.shown = { structure: name, a: a.count, b: b.count };
-    this.levelText.textContent = `${name}, level ${level}: ${a.count} and ${b.count} volumes`;
+    this.levelText.textContent = volumes.facts.levels_b.length > 0
+      ? `${name}, level ${level}: ${a.count} and ${b.count} volumes`
+      : `${name}, level ${level}: ${a.count} cells, all of the solid at rest`;
     return this.stage.draw();
   }
 
