@@ -125,7 +125,8 @@ private:
         return {mesh_.points[names[0]], mesh_.points[names[1]], mesh_.points[names[2]]};
     }
     [[nodiscard]] bool have_equal_corners(std::uint32_t t, std::uint32_t other) const {
-        return std::ranges::is_permutation(mesh_.triangles[t], mesh_.triangles[other]);
+        const Triangle& names = mesh_.triangles[t];
+        return std::is_permutation(names.begin(), names.end(), mesh_.triangles[other].begin());
     }
     [[nodiscard]] std::uint32_t corner_at(std::uint32_t t, std::uint32_t vertex) const {
         const Triangle& names = mesh_.triangles[t];
