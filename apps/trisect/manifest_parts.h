@@ -20,7 +20,8 @@ struct WrittenPart {
 
 /// Reads parts as most manifests have them, without a document of JSON, in a tenth of the time. It
 /// takes nothing that is not JSON, and gives what a document would; what it does not take may be
-/// JSON all the same (a member twice, one that is not known, a pose of four numbers), which another reader is to say.
+/// JSON all the same (a member twice, one that is not known, a pose of four numbers), which another
+/// reader is to say.
 class WrittenParts {
 public:
     /// \param text objects with commas between them, without brackets around; outlives this

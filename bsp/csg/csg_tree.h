@@ -72,8 +72,8 @@ struct CsgLimits {
 };
 
 /// Reads a program. O(n). `file` is the name in errors.
-/// \throw CsgError (Input) where the text is malformed, (Unsupported) where a known node has no such
-/// parameter, (Limit) beyond the limits
+/// \throw CsgError (Input) where the text is malformed, (Unsupported) where a known node has no
+/// such parameter, (Limit) beyond the limits
 [[nodiscard]] CsgTree parse_csg(std::string_view text, std::string file,
                                 const CsgLimits& limits = {});
 
