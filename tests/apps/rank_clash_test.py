@@ -125,9 +125,9 @@ class RankClash(unittest.TestCase):
         # The list may be anywhere, and texts may look like parts: then one rank reads the whole.
         document = json.loads(self.manifest.read_text(encoding='ascii'))
         parts = document['parts'][:300]
-        others = [{'key': [{'file': 'block.off'}, {'file': 'bar.off'}] * 4000}]
-        texts = ['{"file": 1}, {"file": 2}' * 3] * 4000
-        for behind in ({}, {'sets': document['sets']}, {'sets': document['sets'], 'others': others}, {'texts': texts}):
+        texts = '{"file": 1}, {"file": 2}' * 1200
+        named_set = {**document['sets'][0], 'name': texts}
+        for behind in ({}, {'sets': document['sets']}, {'sets': [named_set]}):
             for name in ('a name', '{"file": 1}, {"file": 2}'):
                 named = [{'id': part['name'], **part, 'name': name} for part in parts]
                 self.manifest.write_text(json.dumps({'parts': named, **behind}, indent=len(name) % 2 or None),
@@ -143,9 +143,11 @@ class RankClash(unittest.TestCase):
         self.manifest = csv
         self.assert_same(self.clash([TRISECT], 'whole'), self.clash(ranks(3), 'ranks'))
         self.manifest = self.folder / 'manifest.json'
-        # Refused with the same words: two of one identity, a pose that is none, no list of parts.
+        # Refused with the same words: two of one identity, a pose that is none, no list of parts, what is not known.
         bad_pose = {'file': 'block.off', 'name': 'flat', 'pose': [1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0]}
-        for broken in ({'parts': [*parts, parts[3]]}, {'parts': [*parts, bad_pose]}, {'parts': 7}, {}):
+        others = [{'key': [{'file': 'block.off'}, {'file': 'bar.off'}] * 4000}]
+        for broken in ({'parts': [*parts, parts[3]]}, {'parts': [*parts, bad_pose]}, {'parts': 7}, {},
+                       {'parts': parts, 'others': others}, {'parts': [*parts, {**parts[3], 'place': 1}]}):
             self.manifest.write_text(json.dumps(broken), encoding='ascii')
             reasons = []
             for program in ([TRISECT], ranks(3)):
