@@ -12,6 +12,7 @@
 #include <cstddef>
 
 #include <trisect/kernel/number/ball.h>
+#include <trisect/kernel/number/ball_determinant.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
@@ -84,19 +85,6 @@ private:
     std::array<bool, 3> a_shared_{}, b_shared_{};
     int u_ = 0, v_ = 0;
 };
-
-// det(a, b, c), whose components carry one rounding each.
-Ball determinant(const Vector3& a, const Vector3& b, const Vector3& c) {
-    double sum = 0;
-    double magnitude = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double p = a[(i + 1) % 3] * b[(i + 2) % 3];
-        const double q = a[(i + 2) % 3] * b[(i + 1) % 3];
-        sum += (p - q) * c[i];
-        magnitude += (std::fabs(p) + std::fabs(q)) * std::fabs(c[i]);
-    }
-    return {sum, determinant_rounding * magnitude};
-}
 
 // A triangle, and its corners' distances from the other one's plane, times a number.
 class FilteredHalf {

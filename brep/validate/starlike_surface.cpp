@@ -11,11 +11,10 @@
 #include <trisect/brep/validate/manifold_mesh.h>
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
 
-#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/ball_determinant.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 
@@ -25,19 +24,6 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Of det(a, b, c), whose components carry one rounding each: 1, -1, or 0 for unknown.
-int certain_determinant(const Vector3& a, const Vector3& b, const Vector3& c) {
-    double sum = 0;
-    double magnitude = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double p = b[(i + 1) % 3] * c[(i + 2) % 3];
-        const double q = b[(i + 2) % 3] * c[(i + 1) % 3];
-        sum += a[i] * (p - q);
-        magnitude += std::fabs(a[i]) * (std::fabs(p) + std::fabs(q));
-    }
-    return certain_sign(sum, determinant_rounding * magnitude);
-}
-
 class StarlikeSurface {
 public:
     StarlikeSurface(std::span<const LatticePoint> points, std::span<const Triangle> triangles)
@@ -46,7 +32,7 @@ public:
     [[nodiscard]] bool is_starlike() const {
         for (const Triangle& t : triangles_) {
             const auto [a, b, c] = corners(t);
-            if (certain_determinant(a, b, c) != 1) return false;
+            if (determinant(a, b, c).sign() != 1) return false;
         }
         return is_met_once(direction());
     }
@@ -73,9 +59,9 @@ private:
         int met = 0;
         for (const Triangle& t : triangles_) {
             const auto [a, b, c] = corners(t);
-            const std::array<int, 3> side{certain_determinant(a, b, direction),
-                                          certain_determinant(b, c, direction),
-                                          certain_determinant(c, a, direction)};
+            const std::array<int, 3> side{determinant(a, b, direction).sign(),
+                                          determinant(b, c, direction).sign(),
+                                          determinant(c, a, direction).sign()};
             if (side[0] < 0 || side[1] < 0 || side[2] < 0) continue;
             if (side[0] == 0 || side[1] == 0 || side[2] == 0 || ++met > 1) return false;
         }

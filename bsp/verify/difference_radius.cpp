@@ -32,6 +32,8 @@ constexpr double looseness = 1.5;
 /// And by how much beyond that: cuts are planes through lattice points, which miss an edge between
 /// other points by up to a unit or two.
 constexpr double cut_error = 3;
+/// Boxes that one component is cut to, each of which costs a boolean of the whole difference.
+constexpr std::size_t most_boxes = 64;
 /// Triangles tried for one piece.
 constexpr std::size_t candidate_limit = 48;
 
@@ -350,13 +352,26 @@ private:
     void match_corners() {
         if (is_refuted() || !options_.match_corners) return;
         const double least = std::max(reach_, cut_error);
+        double least_open = infinity;
         for (const double factor : {1.0, 32.0, 1024.0}) {
             CornerBound found = options_.match_corners(factor * least);
-            if (found.move > target() || (match_ && found.boxes.size() >= match_->boxes.size()))
-                continue;
+            const double open = length_of(found.boxes);
+            if (found.move > target() || open >= least_open) continue;
             match_ = std::move(found);
+            least_open = open;
             if (match_->boxes.empty()) return;
         }
+    }
+    /// The sum of the boxes' longest sides: with a large reach there may be one box around all.
+    [[nodiscard]] static double length_of(const std::vector<GridBox>& boxes) {
+        double sum = 0;
+        for (const GridBox& box : boxes) {
+            Int128 longest = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                longest = std::max(longest, box.high[k] - box.low[k]);
+            sum += WideInt<2>(longest).to_double();
+        }
+        return sum;
     }
     [[nodiscard]] static GridBox box_of(const Component& c) {
         GridBox out{c.points.front(), c.points.front()};
@@ -421,8 +436,10 @@ private:
 
     [[nodiscard]] std::vector<Solid> parts_around(const Solid& solid, const Component& c) {
         if (match_) out_.upper = std::max(out_.upper, match_->move);
+        std::vector<GridBox> boxes = open_boxes(c);
+        if (boxes.size() > most_boxes) boxes = {box_of(c)};
         std::vector<Solid> out;
-        for (const GridBox& box : open_boxes(c)) out.push_back(part_within(solid, box));
+        for (const GridBox& box : boxes) out.push_back(part_within(solid, box));
         return out;
     }
     [[nodiscard]] Solid part_within(const Solid& solid, const GridBox& around) const {

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "boolean_membership.h"
 #include "engines/engines.h"
 #include "reference/random_solids.h"
 
@@ -141,18 +142,6 @@ TEST(CornerMatch, FeaturesSmallerThanTheReachFallTogether) {
 // Random solids on a small grid, results with some corners moved, some of them far.
 class CornerMatchSamples : public testing::Test {
 protected:
-    static bool combined(BooleanOperation operation, bool a, bool b) {
-        switch (operation) {
-            case BooleanOperation::Union:
-                return a || b;
-            case BooleanOperation::Intersection:
-                return a && b;
-            case BooleanOperation::Difference:
-                return a && !b;
-            default:
-                return a != b;
-        }
-    }
     /// Of the surface and the mesh alike, as far as one of them is from the point.
     static double distance(const detail::GridTriangles& surface, const ExactPoint& p) {
         return surface.nearest(detail::to_grid(p, Lattice{0})).lower;
@@ -217,7 +206,7 @@ TEST_F(CornerMatchSamples, WhatDiffersIsWithinTheMoveOrInABox) {
             const auto in_b = winding_number(b, p);
             const auto in_r = winding_number(r, p);
             if (!in_a || !in_b || !in_r) continue;
-            if (combined(operation, *in_a > 0, *in_b > 0) == (*in_r > 0)) continue;
+            if (verify_test::is_member(operation, *in_a > 0, *in_b > 0) == (*in_r > 0)) continue;
             ++differences;
             const detail::GridPoint at = detail::to_grid(p, Lattice{0});
             if (std::any_of(bound.boxes.begin(), bound.boxes.end(),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <trisect/brep/primitives/box.h>
+#include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/verify.h>
 
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <vector>
 
+#include "boolean_membership.h"
 #include "engines/engines.h"
 #include "reference/random_solids.h"
 
@@ -234,6 +236,42 @@ TEST(Verify, CoordinatesThatFitNoCommonLattice) {
     EXPECT_EQ(report.moved[2], 1e-60);
 }
 
+// Nearly all results of users: no piece is to be looked at.
+TEST(Verify, ARoundedResultIsBoundedByItsCorners) {
+    const PolygonMesh ball = make_uv_sphere(1, 24, 12);
+    PolygonMesh other = ball;
+    for (Point3d& p : other.points) p = {p[0] + 0.3, p[1] + 0.2, p[2] - 0.4};
+    const std::vector<PolygonMesh> operands{ball, other};
+    const std::vector<Solid> solids{Solid::from_mesh(ball), Solid::from_mesh(other)};
+    for (const auto operation :
+         {BooleanOperation::Union, BooleanOperation::Intersection, BooleanOperation::Difference}) {
+        const PolygonMesh result = evaluate(expression_of(operation, solids)).to_mesh();
+        VerifyOptions options;
+        options.within = 1e-14;
+        const VerifyReport report = verify(operation, operands, result, options);
+        EXPECT_EQ(report.verdict, Verdict::Within);
+        EXPECT_EQ(report.pieces, 0U);
+        EXPECT_GT(report.upper, 0);
+        EXPECT_LT(report.upper, 2e-16);
+    }
+}
+
+TEST(Verify, SomeCornersOfARoundedResultMoved) {
+    // A large reach would match all but one box around everything.
+    const PolygonMesh ball = make_uv_sphere(1, 48, 24);
+    PolygonMesh other = ball;
+    for (Point3d& p : other.points) p = {p[0] + 0.3, p[1] + 0.2, p[2] - 0.4};
+    const std::vector<PolygonMesh> operands{ball, other};
+    const std::vector<Solid> solids{Solid::from_mesh(ball), Solid::from_mesh(other)};
+    PolygonMesh result = evaluate(expression_of(BooleanOperation::Difference, solids)).to_mesh();
+    for (std::size_t i = 0; i < result.points.size(); i += 40) result.points[i][i % 3] += 1e-4;
+    VerifyOptions options;
+    options.within = 2e-4;
+    const VerifyReport report = verify(BooleanOperation::Difference, operands, result, options);
+    EXPECT_EQ(report.verdict, Verdict::Within);
+    EXPECT_LT(report.pieces, 1000U);
+}
+
 // Random solids on a small grid, results with a few corners moved: bounds against samples.
 class VerifySamples : public testing::Test {
 protected:
@@ -243,18 +281,6 @@ protected:
         for (const LatticePoint& p : mesh.points) out.points.push_back(p.doubles());
         for (const auto& t : mesh.triangles) out.add_triangle(t[0], t[1], t[2]);
         return out;
-    }
-    static bool combined(BooleanOperation operation, bool a, bool b) {
-        switch (operation) {
-            case BooleanOperation::Union:
-                return a || b;
-            case BooleanOperation::Intersection:
-                return a && b;
-            case BooleanOperation::Difference:
-                return a && !b;
-            default:
-                return a != b;
-        }
     }
 };
 
@@ -320,7 +346,8 @@ TEST_F(VerifySamples, PointsOutsideTheRadiusAgree) {
             const auto in_b = winding_number(b, p);
             const auto in_r = winding_number(r, p);
             if (!in_a || !in_b || !in_r) continue;
-            differs = differs || combined(operation, *in_a > 0, *in_b > 0) != (*in_r > 0);
+            differs =
+                differs || verify_test::is_member(operation, *in_a > 0, *in_b > 0) != (*in_r > 0);
         }
         if (differs) {
             EXPECT_EQ(report.verdict, Verdict::Different) << seed;
