@@ -78,6 +78,28 @@ std::optional<CrossingPlace> side_in_plane(const Vector3& p, const Vector3& q,
     return place;
 }
 
+// p + t (q - p) with t = n / m, minors of the directions and of r - p along one axis, each off by
+// less than B, and 0 <= t <= 1. So t is off by less than 2 B / |m|, and its rounding.
+std::optional<CrossingPlace> sides_crossing(const Vector3& p, const Vector3& q, const Vector3& r,
+                                            const Vector3& s, double g, double error) {
+    const Vector3 u = minus(q, p);
+    const Vector3 v = minus(s, r);
+    const Vector3 w = minus(r, p);
+    const Vector3 m = cross(u, v);
+    std::size_t k = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::fabs(m[i]) > std::fabs(m[k])) k = i;
+    const double bound = difference_minor_bound(g, 2 * error);
+    if (!(std::fabs(m[k]) > 64 * bound)) return std::nullopt;
+    const double t = cross(w, v)[k] / m[k];
+    const double length = largest_component(u);
+    CrossingPlace place;
+    for (std::size_t i = 0; i < 3; ++i) place.at[i] = p[i] + t * u[i];
+    place.error = bound_slack * (length * (4.2 * bound / std::fabs(m[k]) + 4 * unit_roundoff) +
+                                 3 * error + 4 * unit_roundoff * (largest_component(p) + length));
+    return place;
+}
+
 std::optional<CrossingPlace> crossing_place(const TriangleCorners& p, const TriangleCorners& q,
                                             double error) {
     double g = 0;

@@ -25,6 +25,14 @@ struct CrossingPlace {
                                                          const TriangleCorners& t, double g,
                                                          double error);
 
+/// Where two sides meet, from p to q and from r to s. \pre they do, in one point. The rest as
+/// above.
+[[nodiscard]] std::optional<CrossingPlace> sides_crossing(const std::array<double, 3>& p,
+                                                          const std::array<double, 3>& q,
+                                                          const std::array<double, 3>& r,
+                                                          const std::array<double, 3>& s, double g,
+                                                          double error);
+
 /// About the middle of the common segment. `error` bounds the error of a coordinate of each of p
 /// and q. Nothing where doubles put it badly. \pre the triangles certainly cross
 [[nodiscard]] std::optional<CrossingPlace> crossing_place(const TriangleCorners& p,

@@ -94,7 +94,8 @@ void ContactQuery::touch_in_piece(std::size_t i) {
 }
 
 // `apart`: the solids have no common point just before. Events are fetched in growing numbers: most
-// motions end at the first ones, slides along many features have hundreds.
+// motions end at the first ones, slides along many features have hundreds, and then each search
+// comes to the same pairs, whose events are kept.
 void ContactQuery::overlap_in_piece(std::size_t i, bool& apart) {
     enter_piece(i);
     EventsAtATime last{RealRoot(mpq_class(0)), {}};
@@ -102,7 +103,7 @@ void ContactQuery::overlap_in_piece(std::size_t i, bool& apart) {
     for (;;) {
         const bool is_first = last.pairs.empty();
         EarliestEvents next(apart && is_first ? std::nullopt : std::optional(last.time), times);
-        search(next);
+        search(next, apart && is_first ? nullptr : solved_.get());
         for (EventsAtATime& e : next.events()) {
             if (overlap_between(i, last, e.time, apart)) return;
             last = std::move(e);
@@ -137,16 +138,19 @@ void ContactQuery::enter_piece(std::size_t i) {
         piece_of(motion_a_, index_of(motion_a_, i)), a_.boundary().lattice,
         piece_of(motion_b_, index_of(motion_b_, i)), b_.boundary().lattice);
     pairs_ = std::make_unique<PairEvents>(a_, b_, *motion_);
+    solved_.reset();
     filter_.reset();
-    if (BallMotion::fits(*motion_)) filter_ = std::make_unique<BallMotion>(*motion_);
+    if (!BallMotion::fits(*motion_)) return;
+    filter_ = std::make_unique<BallMotion>(*motion_);
+    solved_ = std::make_unique<SolvedPairs>(a_, b_, *pairs_, *filter_);
 }
 
-void ContactQuery::search(EarliestEvents& events) {
+void ContactQuery::search(EarliestEvents& events, SolvedPairs* solved) {
     if (filter_ == nullptr) {
         search_exactly(events);
         return;
     }
-    ContactSearch search(a_, b_, *pairs_, receding_);
+    ContactSearch search(a_, b_, *pairs_, receding_, solved);
     search.run(*filter_, events);
     counters_.intervals += search.counters().intervals;
     counters_.box_tests += search.counters().box_tests;

@@ -17,6 +17,7 @@
 #include <trisect/bsp/interference/motion/facing_cones.h>
 #include <trisect/bsp/interference/motion/motion_piece.h>
 #include <trisect/bsp/interference/motion/pair_events.h>
+#include <trisect/bsp/interference/motion/solved_pairs.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/pose.h>
 
@@ -57,7 +58,7 @@ private:
     [[nodiscard]] bool overlap_between(std::size_t piece, EventsAtATime& last, const RealRoot& end,
                                        bool& apart);
     void enter_piece(std::size_t piece);
-    void search(EarliestEvents& events);
+    void search(EarliestEvents& events, SolvedPairs* solved = nullptr);
     void search_exactly(EarliestEvents& events);
     void answer(std::size_t piece, const EventsAtATime& events);
     void answer_with_contacts(std::size_t piece);
@@ -68,8 +69,9 @@ private:
     const Motion& motion_b_;
     std::unique_ptr<RelativeMotion> motion_;
     std::unique_ptr<PairEvents> pairs_;
-    std::unique_ptr<BallMotion> filter_;  // null when degrees are too high
-    RecedingFaces* receding_ = nullptr;   // null when nothing may be left out
+    std::unique_ptr<BallMotion> filter_;   // null when degrees are too high
+    std::unique_ptr<SolvedPairs> solved_;  // null with it
+    RecedingFaces* receding_ = nullptr;    // null when nothing may be left out
     std::optional<AlgebraicNumber> time_;
     Relation at_start_ = Relation::Disjoint;
     FirstContactCounters counters_;

@@ -22,6 +22,7 @@ constexpr std::size_t pairs_solved_at_once = 6;
 }  // namespace
 
 void ContactSearch::run(const BallMotion& over, EarliestEvents& events) {
+    if (solved_ != nullptr) solved_->begin_search();
     search(over, {SweptWalk::Pair{}}, 0, events);
 }
 
@@ -69,6 +70,10 @@ void ContactSearch::solve(const BallMotion& over, Pairs& leaves, EarliestEvents&
     });
     find_parts(leaves);
     for (const PartPair& p : parts_) {
+        if (solved_ != nullptr) {
+            counters_.triangle_pairs += solved_->add(p.a, p.b, events);
+            continue;
+        }
         const EventModel::Range of_b = b_.triangles_of(p.b);
         const EventModel::Range of_a = a_.triangles_of(p.a);
         for (std::uint32_t j = of_b.begin; j < of_b.end; ++j)

@@ -12,6 +12,7 @@
 #include <trisect/bsp/interference/motion/contact_event.h>
 #include <trisect/bsp/interference/motion/facing_cones.h>
 #include <trisect/bsp/interference/motion/pair_events.h>
+#include <trisect/bsp/interference/motion/solved_pairs.h>
 #include <trisect/bsp/interference/motion/swept_walk.h>
 
 namespace trisect::detail {
@@ -26,12 +27,14 @@ struct SearchCounters {
 class ContactSearch {
 public:
     /// `parting`, if given, leaves out what moves apart: for the first contact of solids that are
-    /// apart at the beginning.
-    ContactSearch(EventModel& a, EventModel& b, PairEvents& pairs, RecedingFaces* parting = nullptr)
+    /// apart at the beginning. `solved`, if given, computes the events of pairs and keeps them.
+    ContactSearch(EventModel& a, EventModel& b, PairEvents& pairs, RecedingFaces* parting = nullptr,
+                  SolvedPairs* solved = nullptr)
         : a_(a),
           b_(b),
           pairs_(pairs),
           separating_(parting),
+          solved_(solved),
           walk_(a.boundary().boxes, b.boundary().boxes) {}
 
     /// Adds the first events of the motion in the interval of `over`. \pre neither model is empty.
@@ -54,6 +57,7 @@ private:
     EventModel& b_;
     PairEvents& pairs_;
     RecedingFaces* separating_;
+    SolvedPairs* solved_;
     SweptWalk walk_;
     // The second solid's first, for the order.
     struct PartPair {

@@ -106,6 +106,14 @@ IntegerPolynomial PairEvents::coplanarity_of(const Features& f) const {
            combined(times(motion_.line_direction, ub), cross(points.xyz[0], points.xyz[1]));
 }
 
+bool PairEvents::are_coplanar_for_good(const Features& f) const {
+    if (!coplanarity_of(f).is_zero()) return false;
+    MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
+    ++counters.exact;
+    ++counters.coplanar;
+    return true;
+}
+
 void PairEvents::decide(const Features& f, const TimeInterval& interval, EarliestEvents& events) {
     MotionCounters& counters = detail::counters_of_thread<MotionCounters>;
     ++counters.exact;

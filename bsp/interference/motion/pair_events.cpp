@@ -8,6 +8,10 @@
 // interval are sums of a few products in doubles with error bounds (Ball). An interval without a
 // root, or without meeting, is dropped; another one is halved, the numbers with it, down to a
 // thousandth part. What is left is decided by integer polynomials (feature_contact.h).
+//
+// Features that slide in one plane are coplanar all the time, which no halving shows: a thousand
+// parts would be made for each pair of a peg in its hole. So where all coefficients may be zero the
+// polynomial is computed at once.
 
 #include <trisect/bsp/interference/motion/pair_events.h>
 
@@ -48,6 +52,11 @@ BallVector moved_point(const BallMotion::Maps& m, const BallVector& x) {
 Ball height_over(const BallMotion::Maps& m, const BallPlane& plane, const BallVector& x) {
     return dot(m.plane_normal * plane.normal, x) +
            (m.plane_offset * plane.offset - dot(m.plane_shift, plane.normal));
+}
+
+bool may_vanish(const BallPolynomial& p, std::size_t degree) {
+    return std::all_of(p.b.begin(), p.b.begin() + static_cast<std::ptrdiff_t>(degree) + 1,
+                       [](const Ball& b) { return b.sign() == 0; });
 }
 
 using BallCorners = EventModel::Corners;
@@ -260,6 +269,9 @@ void PairEvents::edges(const Features& f, const Resting& a, const BallMotion& ov
 
 void PairEvents::narrow(const Features& f, const BallMotion& over, const Scalars& scalars,
                         EarliestEvents& events) {
+    if (may_vanish(scalars.coplanar, over.degree) && !scalars.never_meet(f.kind, over.degree) &&
+        are_coplanar_for_good(f))
+        return;
     struct Part {
         Scalars scalars;
         double from = 0;

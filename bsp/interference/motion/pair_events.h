@@ -62,6 +62,7 @@ private:
     // The exact stage, in exact_pair_events.cpp.
     void decide(const Features& f, const TimeInterval& interval, EarliestEvents& events);
     [[nodiscard]] IntegerPolynomial coplanarity_of(const Features& f) const;
+    [[nodiscard]] bool are_coplanar_for_good(const Features& f) const;
     void add_if_they_meet(const Features& f, RealRoot& s, EarliestEvents& events);
 
     const EventModel& a_;

@@ -2,10 +2,10 @@
 //
 // Triangles here are parts of polygons in cells: sides may be walls of cells, or diagonals, and a
 // point on one of those is nothing special of the boundary. So what meets at a point is put
-// together by the point itself: by the corners of the features that meet, where these are doubles;
-// then doubles distinguish most points, and rationals the rest. All triangles that contain a common
-// point of the boundaries are in pairs that meet there, so the set at each point is complete, and
-// the cones there (contact_cones.h) need nothing else.
+// together by the point itself: by the corners of the features that meet, which are numbered by
+// their exact places; then doubles distinguish most points, and rationals the rest. All triangles
+// that contain a common point of the boundaries are in pairs that meet there, so the set at each
+// point is complete, and the cones there (contact_cones.h) need nothing else.
 //
 // Every piece of either boundary that touches the other one has such a point in its closure,
 // because the contact set is a complex of points, segments and polygons; the corners of the
@@ -51,52 +51,26 @@ void ExactContacts::compare(const PolygonId& a, const PolygonId& b) {
         }
 }
 
-namespace {
-
-// Writes the ends of a side, the smaller one first; false when they are not known in doubles.
-bool put_side(const ExactTriangles::Triangle& t, std::size_t side, PlaceName& name,
-              std::size_t first) {
-    const Approximation& p = t.corner[side].approximation();
-    const Approximation& q = t.corner[(side + 1) % 3].approximation();
-    if (p.error != 0 || q.error != 0) return false;
-    const auto& [low, high] = std::minmax(p.c, q.c);
-    std::ranges::copy(low, name.corners.begin() + static_cast<std::ptrdiff_t>(first));
-    std::ranges::copy(high, name.corners.begin() + static_cast<std::ptrdiff_t>(first) + 3);
-    return true;
-}
-
-bool put_corner(const ExactTriangles::Triangle& t, std::size_t corner, PlaceName& name) {
-    const Approximation& p = t.corner[corner].approximation();
-    if (p.error != 0) return false;
-    std::ranges::copy(p.c, name.corners.begin());
-    return true;
-}
-
-}  // namespace
-
-PlaceName ExactContacts::place_name(std::uint32_t meeting, std::uint8_t point) const {
+PlaceName ExactContacts::place_name(std::uint32_t meeting, std::uint8_t point) {
+    using Kind = PlaceName::Kind;
     const MeetingTriangles& m = meetings_[meeting];
     const MeetingPoint& p = m.contact.points[point];
-    const ExactTriangles::Triangle& a = a_[m.a];
-    const ExactTriangles::Triangle& b = b_[m.b];
-    enum Kind : std::uint8_t { None, CornerOfA, CornerOfB, Sides, SideOfA, SideOfB };
-    PlaceName name;
-    Kind kind = None;
-    if (p.a.is_corner()) {
-        if (put_corner(a, p.a.index(), name)) kind = CornerOfA;
-    } else if (p.b.is_corner()) {
-        if (put_corner(b, p.b.index(), name)) kind = CornerOfB;
-    } else if (p.a.is_side() && p.b.is_side()) {
-        if (put_side(a, p.a.index(), name, 0) && put_side(b, p.b.index(), name, 6)) kind = Sides;
-    } else if (p.a.is_side()) {
-        name.polygon = b.polygon;
-        if (put_side(a, p.a.index(), name, 0)) kind = SideOfA;
-    } else {
-        name.polygon = a.polygon;
-        if (put_side(b, p.b.index(), name, 0)) kind = SideOfB;
+    const auto side = [](ExactTriangles& of, std::uint32_t triangle, std::size_t i) {
+        const std::uint32_t from = of.place_of(triangle, i);
+        const std::uint32_t to = of.place_of(triangle, (i + 1) % 3);
+        return std::array{std::min(from, to), std::max(from, to)};
+    };
+    if (p.a.is_corner()) return {Kind::CornerOfA, {a_.place_of(m.a, p.a.index())}};
+    if (p.b.is_corner()) return {Kind::CornerOfB, {b_.place_of(m.b, p.b.index())}};
+    if (p.a.is_side() && p.b.is_side()) {
+        const auto of_a = side(a_, m.a, p.a.index());
+        const auto of_b = side(b_, m.b, p.b.index());
+        return {Kind::Sides, {of_a[0], of_a[1], of_b[0], of_b[1]}};
     }
-    name.kind = kind;
-    return name;
+    const bool is_of_a = p.a.is_side();
+    const auto ends = is_of_a ? side(a_, m.a, p.a.index()) : side(b_, m.b, p.b.index());
+    const std::uint32_t polygon = is_of_a ? b_[m.b].polygon : a_[m.a].polygon;
+    return {is_of_a ? Kind::SideOfA : Kind::SideOfB, {ends[0], ends[1], polygon}};
 }
 
 // In A's lattice.
@@ -121,6 +95,13 @@ std::optional<Approximation> ExactContacts::approximate(const MeetingTriangles& 
     for (const auto& x : of_a)
         for (const auto& y : of_b) g = std::max(g, largest_component(minus(x, y)));
     const bool side_of_a = p.a.is_side();
+    if (side_of_a && p.b.is_side()) {  // of flush triangles, too, whose planes are one
+        const std::size_t i = p.a.index();
+        const std::size_t j = p.b.index();
+        const auto place =
+            sides_crossing(of_a[i], of_a[(i + 1) % 3], of_b[j], of_b[(j + 1) % 3], 2 * g, error);
+        if (place) return Approximation{place->at, place->error};
+    }
     const TriangleCorners& t = side_of_a ? of_a : of_b;
     const std::size_t i = side_of_a ? p.a.index() : p.b.index();
     const auto place = side_in_plane(t[i], t[(i + 1) % 3], side_of_a ? of_b : of_a, 2 * g, error);
@@ -172,7 +153,7 @@ void ExactContacts::unite(const std::vector<Incidence>& all) {
     std::vector<Named> named;
     for (std::size_t i = 0; i < all.size();) {
         std::size_t end = i + 1;
-        while (end < all.size() && all[i].name.kind != 0 && all[end].name == all[i].name) ++end;
+        while (end < all.size() && all[end].name == all[i].name) ++end;
         named.push_back({place_at(all[i].meeting, all[i].point), i, end});
         largest_error_ = std::max(largest_error_, named.back().place.error);
         i = end;
@@ -259,26 +240,11 @@ void ExactContacts::add_if_there(MeetingTriangles& meeting, std::uint32_t place)
 
 namespace {
 
-// Corners with numbers, equal ones at the same place.
-class CornerNumbers {
-public:
-    [[nodiscard]] std::uint32_t of(const Point& p) {
-        for (std::uint32_t i = 0; i < points_.size(); ++i)
-            if (*points_[i] == p) return i;
-        points_.push_back(&p);
-        return static_cast<std::uint32_t>(points_.size() - 1);
-    }
-
-private:
-    std::vector<const Point*> points_;
-};
-
-std::vector<ConePart> cone_of(const ExactTriangles& triangles, const std::vector<TriangleAt>& at) {
-    CornerNumbers numbers;
+std::vector<ConePart> cone_of(ExactTriangles& triangles, const std::vector<TriangleAt>& at) {
     std::vector<ConePart> cone;
     for (const TriangleAt& t : at) {
         ConePart part{triangles[t.triangle].posed(), {}, t.feature};
-        for (std::size_t i = 0; i < 3; ++i) part.place[i] = numbers.of(*part.triangle.corner[i]);
+        for (std::size_t i = 0; i < 3; ++i) part.place[i] = triangles.place_of(t.triangle, i);
         cone.push_back(part);
     }
     return cone;
@@ -286,7 +252,7 @@ std::vector<ConePart> cone_of(const ExactTriangles& triangles, const std::vector
 
 }  // namespace
 
-BoundaryFlags ExactContacts::flags_at(const MeetingPlace& place) const {
+BoundaryFlags ExactContacts::flags_at(const MeetingPlace& place) {
     return compare_cones(cone_of(a_, place.a), cone_of(b_, place.b), poses_, true);
 }
 

@@ -43,12 +43,12 @@ struct MeetingTriangles {
     std::vector<std::uint32_t> others;      ///< further places that both contain
 };
 
-/// Where two features meet, by the corners of the features that are known in doubles: a corner, a
-/// side and a polygon, or two sides.
+/// Where two features meet, by the places of their corners: a corner, a side and a polygon, or two
+/// sides.
 struct PlaceName {
-    std::uint8_t kind = 0;  ///< 0: no name
-    std::uint32_t polygon = 0;
-    std::array<double, 12> corners{};
+    enum class Kind : std::uint8_t { CornerOfA, CornerOfB, Sides, SideOfA, SideOfB };
+    Kind kind = Kind::CornerOfA;
+    std::array<std::uint32_t, 4> parts{};
     friend auto operator<=>(const PlaceName&, const PlaceName&) = default;
 };
 
@@ -78,7 +78,7 @@ private:
         std::uint8_t point = 0;
     };
 
-    [[nodiscard]] PlaceName place_name(std::uint32_t meeting, std::uint8_t point) const;
+    [[nodiscard]] PlaceName place_name(std::uint32_t meeting, std::uint8_t point);
     [[nodiscard]] MeetingPlace place_at(std::uint32_t meeting, std::uint8_t point);
     [[nodiscard]] std::optional<Approximation> approximate(const MeetingTriangles& m,
                                                            const MeetingPoint& p) const;
@@ -89,7 +89,7 @@ private:
     [[nodiscard]] static bool may_contain(const ExactTriangles::Triangle& t,
                                           const Approximation& at);
     void add_if_there(MeetingTriangles& meeting, std::uint32_t place);
-    [[nodiscard]] BoundaryFlags flags_at(const MeetingPlace& place) const;
+    [[nodiscard]] BoundaryFlags flags_at(const MeetingPlace& place);
     [[nodiscard]] EntityName name_at(MeetingPlace& place, bool of_a) const;
     void add_segments(const MeetingTriangles& m, std::vector<NamedContact>& out);
     void add_segment(const MeetingTriangles& m, std::uint32_t from, std::uint32_t to,

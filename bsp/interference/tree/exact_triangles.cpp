@@ -3,6 +3,7 @@
 #include <trisect/bsp/interference/tree/exact_triangles.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace trisect::detail {
@@ -33,6 +34,25 @@ void ExactTriangles::make(Polygon& polygon, std::uint32_t number) {
         add(part.vertices(), id.is_flipped(), number);
     }
     polygon.triangles.end = static_cast<std::uint32_t>(triangles_.size());
+}
+
+// Equal points have equal nearest doubles; others may have, too.
+std::uint32_t ExactTriangles::place_of(std::uint32_t triangle, std::size_t corner) {
+    Triangle& t = triangles_[triangle];
+    std::uint32_t& place = t.place[corner];
+    if (place != no_place) return place;
+    const Point& p = t.corner[corner];
+    const Point3d at = p.nearest();
+    std::uint64_t hash = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+        hash = mix64(hash + std::bit_cast<std::uint64_t>(at[k] + 0.0));  // -0 is 0
+    for (std::uint64_t attempt = 0;; ++attempt) {
+        const auto [number, is_new] =
+            places_.insert({hash, attempt}, static_cast<std::int32_t>(points_.size()));
+        if (is_new) points_.push_back(&p);
+        if (is_new || *points_[static_cast<std::size_t>(number)] == p)
+            return place = static_cast<std::uint32_t>(number);
+    }
 }
 
 // A fan. Corners are counter-clockwise seen from above the source's plane.

@@ -20,12 +20,14 @@ namespace trisect::detail {
 /// For one question. Triangles are those of polygons' parts in their cells; numbers count up.
 class ExactTriangles {
 public:
+    static constexpr std::uint32_t no_place = 0xffffffffU;
     struct Triangle {
         std::array<Point, 3> corner;   ///< counter-clockwise seen from outside
         const Plane* plane = nullptr;  ///< outward
         std::uint32_t polygon = 0;     ///< a number of this
         std::array<double, 3> lo{};    ///< bounds, outward
         std::array<double, 3> hi{};
+        std::array<std::uint32_t, 3> place{no_place, no_place, no_place};  ///< see place_of()
         [[nodiscard]] PosedTriangle posed() const {
             return {{&corner[0], &corner[1], &corner[2]}, plane};
         }
@@ -47,6 +49,9 @@ public:
     [[nodiscard]] const Triangle& operator[](std::uint32_t triangle) const {
         return triangles_[triangle];
     }
+    /// The same number for all corners of these triangles that are one point, exactly. Made when
+    /// first asked for, since it rounds the point to the nearest doubles.
+    [[nodiscard]] std::uint32_t place_of(std::uint32_t triangle, std::size_t corner);
 
 private:
     struct Polygon {
@@ -61,6 +66,8 @@ private:
     std::deque<Triangle> triangles_;
     std::deque<Plane> planes_;
     FlatMap numbers_;
+    FlatMap places_;
+    std::vector<const Point*> points_;  // of places
 };
 
 }  // namespace trisect::detail

@@ -14,8 +14,12 @@
 #include <vector>
 
 #include <trisect/brep/polygon_mesh.h>
+#include <trisect/brep/primitives/cylinder.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/interference/moving_points.h>
 #include <trisect/bsp/interference/relation/interference_model_data.h>
+#include <trisect/bsp/solid_transform.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 
 #include "engines/engines.h"
@@ -168,6 +172,35 @@ TEST(SolidFirstContact, SlidesOnAFloorAgainstAWall) {
     EXPECT_EQ(kinds_of(c), kinds_of(expected));
     EXPECT_FALSE(
         first_contact(room, Motion(), block, by(4, 0, 0), {ContactEvent::Overlap}).exists());
+}
+
+// Flush all around, and near at all times: each pair of parts is solved once, however many searches
+// and intervals come to it, and what is coplanar for good is seen at once.
+TEST(SolidFirstContact, APegSlidesFlushToTheEndOfItsHole) {
+    constexpr double height = 0.75;
+    const auto cylinder = [](double length, double from) {
+        return transformed(Solid::from_mesh(trisect::make_cylinder(2, length, 24)),
+                           Pose::from_translation({0, 0, from}));
+    };
+    Solid peg = cylinder(height, 0);
+    for (int ring = 1; ring < 3; ++ring)
+        peg = evaluate(Expression(peg) | Expression(cylinder(height, height * ring)));
+    const Solid block = evaluate(Expression(solids::box(-4, -4, -2, 4, 4, 4)) - Expression(peg) -
+                                 Expression(cylinder(8, 1)));
+    const Motion down = Motion::translation(Pose::from_translation({0, 0, 3}), {0, 0, -4});
+    const trisect::Diagnostics<trisect::FirstContactCounters> search;
+    const trisect::Diagnostics<trisect::MotionCounters> pairs;
+    const NamedFirstContact c = first_contact(peg, down, block, Motion(), {ContactEvent::Overlap});
+    expect_at(c, "3/4");
+    EXPECT_EQ(c.at_start, Relation::Touching);
+    EXPECT_EQ(c.witnesses.size(), 24U);
+    EXPECT_GT(search.counters().triangle_pairs, 0U);
+    EXPECT_LT(search.counters().triangle_pairs, 60000U);
+    EXPECT_GT(pairs.counters().coplanar, 0U);
+    const FirstContact expected = first_contact(
+        InterferenceModel(peg), down, InterferenceModel(block), Motion(), {ContactEvent::Overlap});
+    EXPECT_EQ(*c.time, *expected.time);
+    EXPECT_EQ(kinds_of(c), kinds_of(expected));
 }
 
 TEST(SolidFirstContact, WithinEachOtherAtTheStart) {
