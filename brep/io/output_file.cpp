@@ -160,9 +160,12 @@ void write_descriptor(int descriptor, const std::string& name, std::string_view 
     if (const int error = write_all(descriptor, bytes)) fail(name, error);
 }
 
+// A file that is replaced is flushed in any case: some file systems write the new name before the
+// new bytes, and a power failure between these would leave neither file.
 void write_file(const fs::path& path, std::string_view bytes, OutputSafety safety) {
     struct stat status {};
     const bool exists = ::stat(path.c_str(), &status) == 0;
+    if (exists) safety = OutputSafety::Flushed;
     if (exists && !S_ISREG(status.st_mode)) return write_directly(path, bytes);
     TemporaryFile file(output_target(path));
     if (exists) file.set_mode(status.st_mode);

@@ -25,8 +25,8 @@ namespace trisect {
 
 /// What a failure of the power leaves.
 enum class OutputSafety : std::uint8_t {
-    Renamed,  ///< the old file, the new one, or an empty one where the file system orders nothing
-    Flushed   ///< the old file or the new one; waits for the disk
+    Renamed,  ///< the old file or the new one; where there was none, perhaps none or a part
+    Flushed   ///< the old file, or none, or the new one; waits for the disk
 };
 
 void write_file(const std::filesystem::path& path, std::string_view bytes,
