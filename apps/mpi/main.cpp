@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,6 +20,7 @@
 
 #include <trisect/kernel/error.h>
 
+#include "open_mpi.h"
 #include "rank_clash_command.h"
 #include "rank_slab_command.h"
 #include "ranks.h"
@@ -53,15 +53,6 @@ void end_with_parent() {
 #endif
 }
 
-// Where all ranks are on one machine, messages go through its memory. To look for networks takes
-// Open MPI longer than anything else at the start. What the user has set stays.
-void look_for_no_network() {
-    const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
-    const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
-    if (all == nullptr || here == nullptr || std::string_view(all) != here) return;
-    ::setenv("OMPI_MCA_pml", "ob1", 0);
-}
-
 // A Supervisor fetches these. MPI has threads, too, which would let them end the process.
 void keep_signals() {
     sigset_t set;
@@ -75,9 +66,7 @@ void keep_signals() {
 int main(int argc, char** argv) {
     end_with_parent();
     keep_signals();
-    look_for_no_network();
-    int provided = 0;
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    trisect::app::begin_mpi(argc, argv);
     const bool is_first = trisect::app::Ranks::rank() == 0;
     std::vector<std::string> arguments = arguments_of(argc, argv, is_first);
     if (!is_first) be_silent();
