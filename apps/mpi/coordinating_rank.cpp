@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "model_cache.h"
+#include "rank_worker.h"
 #include "region_owners.h"
 #include "trisect/clash_command.h"
 #include "trisect/clash_id.h"
@@ -121,7 +122,9 @@ void CoordinatingRank::begin() {
     read_manifest();
     summaries_.clear();
     start_.manifest = options_.clash.manifest;
-    start_.key = clash_run_key(manifest_, options_.clash);
+    // Slices of another size are other pieces.
+    start_.key = fmt::format("{}/{}", clash_run_key(manifest_, options_.clash),
+                             RankWorker::pairs_of_slice(options_.clash));
     start_.parts = manifest_.size();
     start_.files = manifest_.files;
     start_.groups = manifest_.groups;
@@ -198,7 +201,7 @@ void CoordinatingRank::attend(const std::function<bool()>& is_done) {
         if (has_done || has_come || has_gone)
             patience.reset();
         else
-            patience.wait();
+            station_.wait(patience);
         show_progress();
         if (session_.supervisor().stop_flag()) throw CancelledError();
     }
@@ -255,7 +258,7 @@ bool CoordinatingRank::give_all() {
         again = false;
         for (std::size_t r = 0; r < all_.size(); ++r) {
             RankOrder order;
-            if (!all_[r].is_ready || all_[r].has >= Coordinator::ahead ||
+            if (!all_[r].is_ready || all_[r].has >= coordinator_->ahead() ||
                 !coordinator_->next(r, order))
                 continue;
             ++all_[r].has;

@@ -23,6 +23,10 @@ constexpr std::size_t orders_of_all = 2;
 // back the rest has not held much.
 constexpr double seconds_of_an_order = 0.01;
 constexpr std::size_t pieces_of_unknown_cost = 16;
+// When a rank gets its next piece only after the last one: so few are left for each, and they take
+// more than this on average.
+constexpr std::size_t pieces_of_the_end = 4;
+constexpr double seconds_of_a_message = 0.003;
 
 std::uint64_t size_of(const std::string& file) {
     std::error_code error;
@@ -39,7 +43,8 @@ Coordinator::Coordinator(const ClashOptions& options, ClashManifest& manifest,
       files_(manifest.files.size()),
       knows_file_(files_.size()),
       files_left_(files_.size()),
-      left_(ranks) {
+      left_(ranks),
+      slices_(ranks) {
     take_over(done);
     std::vector<std::pair<std::uint64_t, std::uint64_t>> sizes;
     for (std::size_t i = 0; i < files_.size(); ++i)
@@ -74,7 +79,7 @@ bool Coordinator::next(std::size_t rank, RankOrder& order) {
     if (is_over()) return false;
     if (!has_tiles_) return next_file(order);
     order.kind = RankOrder::Kind::Tile;
-    return slices_.empty() ? next_tiles(rank, order) : next_slices(order);
+    return next_slices(rank, order) || next_tiles(rank, order) || next_of_others(order);
 }
 
 std::size_t Coordinator::pieces_of(std::size_t share) const {
@@ -85,36 +90,62 @@ std::size_t Coordinator::pieces_of(std::size_t share) const {
     return static_cast<double>(share) < most ? share : static_cast<std::size_t>(most);
 }
 
+std::size_t Coordinator::ahead() const {
+    const std::size_t left = slices_left_ + not_ordered_;
+    const bool are_long = seconds_ > seconds_of_a_message * static_cast<double>(costs_.size());
+    return are_long && left < pieces_of_the_end * left_.size() ? 1 : 3;
+}
+
 void Coordinator::add_piece(RankOrder& order, std::uint64_t number) const {
     const Tile& tile = tiles_[tile_of(number)];
     order.owner = tile.owner;
     order.pieces.push_back({number, tile.region, tile.number});
 }
 
-// Of one rank's tiles.
-bool Coordinator::next_slices(RankOrder& order) {
-    const std::uint32_t owner = tiles_[tile_of(slices_.front())].owner;
-    for (std::size_t n = pieces_of(slices_.size() / (orders_of_all * left_.size()));
-         n != 0 && !slices_.empty() && tiles_[tile_of(slices_.front())].owner == owner; --n) {
-        add_piece(order, slices_.front());
-        slices_.pop_front();
+// Whoever has the parts of a tile needs no message for its slices.
+bool Coordinator::next_slices(std::size_t rank, RankOrder& order) {
+    Left& from = slices_[rank];
+    if (from.empty()) return false;
+    std::size_t n = pieces_of(std::min(from.size(), slices_left_ / (orders_of_all * left_.size())));
+    for (slices_left_ -= n; n != 0; --n) {
+        add_piece(order, from.front());
+        from.pop_front();
     }
     return true;
 }
 
 bool Coordinator::next_tiles(std::size_t rank, RankOrder& order) {
-    const bool has_own = !left_[rank].empty();
-    Left& from = has_own ? left_[rank] : *std::ranges::max_element(left_, {}, &Left::size);
+    Left& from = left_[rank];
     if (from.empty()) return false;
-    const std::size_t n = pieces_of(
+    std::size_t n = pieces_of(
         std::min(from.size() / orders_of_a_rank, not_ordered_ / (orders_of_all * left_.size())));
-    not_ordered_ -= n;
-    for (std::size_t i = 0; i < n; ++i) {
-        // Those of others from the other end.
-        add_piece(order, tile_piece(has_own ? from.front() : from.back(), 0));
-        has_own ? from.pop_front() : from.pop_back();
+    for (not_ordered_ -= n; n != 0; --n) {
+        add_piece(order, tile_piece(from.front(), 0));
+        from.pop_front();
     }
     return true;
+}
+
+// Of the rank that has most, from the other end; first tiles, which may have slices.
+bool Coordinator::next_of_others(RankOrder& order) {
+    const bool are_slices = not_ordered_ == 0;
+    auto& all = are_slices ? slices_ : left_;
+    std::size_t& left = are_slices ? slices_left_ : not_ordered_;
+    Left& from = *std::ranges::max_element(all, {}, &Left::size);
+    if (from.empty()) return false;
+    std::size_t n =
+        pieces_of(std::min(from.size() / orders_of_a_rank, left / (orders_of_all * left_.size())));
+    for (left -= n; n != 0; --n) {
+        add_piece(order, are_slices ? from.back() : tile_piece(from.back(), 0));
+        from.pop_back();
+    }
+    return true;
+}
+
+void Coordinator::add_slice_left(std::uint64_t piece, bool is_next) {
+    Left& to = slices_[tiles_[tile_of(piece)].owner];
+    is_next ? to.push_front(piece) : to.push_back(piece);
+    ++slices_left_;
 }
 
 void Coordinator::take_back(const std::vector<RankPiece>& pieces) {
@@ -123,7 +154,7 @@ void Coordinator::take_back(const std::vector<RankPiece>& pieces) {
         if (!has_tiles_) {
             file_order_.push_back(number);
         } else if (slice_of(number) != 0 || tiles_[tile_of(number)].slices != 0) {
-            slices_.push_front(number);
+            add_slice_left(number, true);
         } else {
             left_[tiles_[tile_of(number)].owner].push_front(tile_of(number));
             ++not_ordered_;
@@ -196,7 +227,7 @@ void Coordinator::take_over_tiles() {
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         for (std::uint32_t s = 0; is_known[i] && s < tiles_[i].slices; ++s)
-            if (!done_.contains(tile_piece(i, s))) slices_.push_back(tile_piece(i, s));
+            if (!done_.contains(tile_piece(i, s))) add_slice_left(tile_piece(i, s), false);
     done_.clear();
 }
 
@@ -207,7 +238,8 @@ void Coordinator::add_slice(std::uint64_t piece, std::uint32_t slices, Json&& fo
     ++tile.done;
     if (tile.slices == 0) {
         tile.slices = slices;
-        for (std::uint32_t s = 1; s < slices; ++s) slices_.push_back(tile_piece(tile_of(piece), s));
+        for (std::uint32_t s = 1; s < slices; ++s)
+            add_slice_left(tile_piece(tile_of(piece), s), false);
     }
     if (is_finished(tile)) --tiles_left_;
 }

@@ -28,8 +28,8 @@ struct PieceCost {
 
 /// First the files, whose boxes make those of the parts; then the tiles, which ranks made of their
 /// regions. The rank that does a tile says how many slices its pairs are: those after the first are
-/// pieces of their own, for whichever rank comes next. So no tile is too much for one rank. A rank
-/// does tiles of its own regions, and when it has none left, those of the rank that has most.
+/// pieces of their own. So no tile is too much for one rank. A rank does what is of its own
+/// regions, and when nothing of that is left, what is of the rank that has most.
 ///
 /// An order has many pieces while many are left, a fixed part of what is left to a rank, and at the
 /// end single ones. A rank hands back what it does not come to within some time.
@@ -59,8 +59,9 @@ public:
     /// All is done, or something failed that ends the run.
     [[nodiscard]] bool is_over() const { return failure_ || (has_tiles_ && tiles_left_ == 0); }
     [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
-    /// How many orders a rank has at a time.
-    static constexpr std::size_t ahead = 2;
+    /// How many orders a rank has at a time. At the end one, where pieces take longer than a
+    /// message: a rank that has two would do both while another one waits.
+    [[nodiscard]] std::size_t ahead() const;
 
     /// Of what was done until now, and what was not; once.
     [[nodiscard]] ClashReport take_report();
@@ -81,15 +82,17 @@ private:
         std::uint32_t slices = 0;  // 0: not known yet
         std::uint32_t done = 0;
     };
-    // Tiles of a rank whose first slice was not ordered.
+    // Tiles of a rank whose first slice was not ordered, or further slices.
     using Left = std::deque<std::uint64_t>;
 
     void take_over(const FinishedPieces& done);
     void take_over_tiles();
     void add_slice(std::uint64_t piece, std::uint32_t slices, Json&& found);
     [[nodiscard]] bool next_file(RankOrder& order);
-    [[nodiscard]] bool next_slices(RankOrder& order);
+    [[nodiscard]] bool next_slices(std::size_t rank, RankOrder& order);
     [[nodiscard]] bool next_tiles(std::size_t rank, RankOrder& order);
+    [[nodiscard]] bool next_of_others(RankOrder& order);
+    void add_slice_left(std::uint64_t piece, bool is_next);
     [[nodiscard]] std::size_t pieces_of(std::size_t share) const;
     void add_piece(RankOrder& order, std::uint64_t number) const;
     [[nodiscard]] bool is_finished(const Tile& tile) const {
@@ -107,9 +110,10 @@ private:
 
     bool has_tiles_ = false;
     std::vector<Tile> tiles_;
-    std::vector<Left> left_;            // by rank
-    std::size_t not_ordered_ = 0;       // tiles in these lists
-    std::deque<std::uint64_t> slices_;  // of tiles whose first is done
+    std::vector<Left> left_;       // by rank
+    std::size_t not_ordered_ = 0;  // tiles in these lists
+    std::vector<Left> slices_;     // by rank, of its tiles whose first slice is done
+    std::size_t slices_left_ = 0;  // in these lists
     std::size_t tiles_left_ = 0;
 
     FinishedPieces done_;

@@ -35,6 +35,11 @@ std::optional<RankAnswer> LocalRank::take() {
     return out;
 }
 
+void LocalRank::wait(std::chrono::microseconds most) {
+    std::unique_lock lock(mutex_);
+    answered_.wait_for(lock, most, [this] { return failure_ || !answers_.empty(); });
+}
+
 void LocalRank::work() {
     using Clock = std::chrono::steady_clock;
     std::optional<Clock::time_point> waits_from;
@@ -55,11 +60,10 @@ void LocalRank::work() {
         }
         if (task.order.kind == RankOrder::Kind::Tile) waits_from = Clock::now();
         lock.lock();
-        if (failure) {
-            failure_ = failure;
-            return;
-        }
-        answers_.push_back(std::move(*answer));
+        failure_ = failure;
+        if (answer) answers_.push_back(std::move(*answer));
+        answered_.notify_all();
+        if (failure) return;
     }
 }
 

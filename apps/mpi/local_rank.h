@@ -4,6 +4,7 @@
 // The first one takes and answers messages meanwhile.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -28,6 +29,8 @@ public:
     void give(RankTask task);
     /// Null if nothing is finished. \throw CancelledError when the thread was stopped
     [[nodiscard]] std::optional<RankAnswer> take();
+    /// Until take() has something to say, and no longer than that.
+    void wait(std::chrono::microseconds most);
     /// After stop().
     [[nodiscard]] RankWorker& worker() { return *worker_; }
     /// After stop(): seconds on the clock that it waited between its first tile and its last.
@@ -39,6 +42,7 @@ private:
     std::unique_ptr<RankWorker> worker_;
     std::mutex mutex_;  // guards what follows
     std::condition_variable changed_;
+    std::condition_variable answered_;
     std::deque<RankTask> tasks_;
     std::deque<RankAnswer> answers_;
     std::exception_ptr failure_;

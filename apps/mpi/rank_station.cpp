@@ -186,6 +186,10 @@ void RankStation::stop() {
     if (local_) local_->stop();
 }
 
+void RankStation::wait(Patience& patience) const {
+    local_ ? local_->wait(patience.next()) : patience.wait();
+}
+
 void RankStation::answer(const RankAnswer& answer) {
     ranks_.send(0, Ranks::Result, bytes_of(answer));
 }
@@ -211,7 +215,7 @@ void serve(Session& session, const RankClashOptions& options) {
             if (station.send_results() || has_come)
                 patience.reset();
             else
-                patience.wait();
+                station.wait(patience);
             if (session.supervisor().stop_flag()) throw CancelledError();
         }
         ranks.leave();

@@ -47,6 +47,8 @@ public:
     [[nodiscard]] bool has_ended() const { return has_ended_; }
     /// Drops what is left to do.
     void stop();
+    /// For a while, or until a task is done.
+    void wait(Patience& patience) const;
 
 private:
     void handle(const Ranks::Message& message);

@@ -45,7 +45,8 @@ RankAnswer RankWorker::done(const RankTask& task) {
     RankAnswer out;
     out.is_of_order = true;
     const auto begin = Clock::now();
-    tile_.reset();  // numbers of another task
+    if (task.store == nullptr || task.store != store_) tile_.reset();  // numbers of another task
+    store_ = task.store;
     const std::vector<RankPiece>& pieces = task.order.pieces;
     try {
         for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -112,8 +113,8 @@ void RankWorker::read_file(std::uint64_t file, RankResult& result) {
 void RankWorker::answer_slice(const RankTask& task, std::size_t at, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
     if (tile_ != tile_of(result.piece)) find_candidates(task, at);
-    const std::size_t size = std::max(options_.volumes ? slice_volumes : slice_pairs,
-                                      (pairs_.size() + most_slices - 1) / most_slices);
+    const std::size_t size =
+        std::max(pairs_of_slice(options_), (pairs_.size() + most_slices - 1) / most_slices);
     const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
     const std::size_t begin = std::min(slice_of(result.piece) * size, pairs_.size());
     const std::size_t n = std::min(size, pairs_.size() - begin);

@@ -24,8 +24,11 @@ public:
     /// Pairs of a slice, fewer where each may be a boolean, and more where a tile would have more
     /// slices than that. Journals do not depend on ranks, so these are fixed.
     static constexpr std::size_t slice_pairs = 32;
-    static constexpr std::size_t slice_volumes = 4;
+    static constexpr std::size_t slice_volumes = 2;
     static constexpr std::size_t most_slices = 256;
+    [[nodiscard]] static std::size_t pairs_of_slice(const ClashOptions& options) {
+        return options.volumes ? slice_volumes : slice_pairs;
+    }
 
     RankWorker(Session& session, const ClashOptions& options, std::uint64_t most_bytes,
                const RankStart& start, const std::string& journal, const FinishedPieces& kept);
@@ -55,6 +58,7 @@ private:
     RankStart start_;
     ClashLimits limits_;
     ModelCache models_;
+    const PartStore* store_ = nullptr;   // of which that is; null: another rank's
     std::optional<std::uint64_t> tile_;  // of which the pairs are
     TileParts parts_;                    // of an own one its numbers, of another's those of a task
     std::vector<ClashCandidate> pairs_;

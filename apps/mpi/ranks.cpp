@@ -79,9 +79,12 @@ void Ranks::leave() {
     }
 }
 
-void Patience::wait() {
-    std::this_thread::sleep_for(std::chrono::microseconds(microseconds_));
-    microseconds_ = std::min(microseconds_ + 25, 2000U);
+void Patience::wait() { std::this_thread::sleep_for(next()); }
+
+std::chrono::microseconds Patience::next() {
+    const std::chrono::microseconds now(microseconds_);
+    microseconds_ = std::min(microseconds_ + 25, most);
+    return now;
 }
 
 }  // namespace trisect::app

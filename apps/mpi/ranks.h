@@ -3,6 +3,7 @@
 // Messages by MPI: whole strings, from one rank to another.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <list>
@@ -66,11 +67,14 @@ private:
 class Patience {
 public:
     void wait();
+    /// How long to wait now.
+    [[nodiscard]] std::chrono::microseconds next();
     void reset() { microseconds_ = least; }
 
 private:
     // Ranks have work ahead of them meanwhile, and asking takes as long as a pair or two.
     static constexpr unsigned least = 50;
+    static constexpr unsigned most = 2000;
     unsigned microseconds_ = least;
 };
 
