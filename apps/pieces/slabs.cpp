@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <trisect/kernel/error.h>
 
@@ -16,46 +17,102 @@ constexpr std::size_t most_slabs = 4096;
 constexpr int quantum_bits = 30;
 
 /// All samples along one axis, each with the triangles that it stands for.
-struct AxisSample {
-    struct Item {
-        double low;
-        double high;
-        std::uint64_t weight;
-    };
-    std::vector<Item> items;  // by their middles
-    std::uint64_t total = 0;
-
+class AxisSample {
+public:
     AxisSample(const std::vector<Survey>& operands, std::size_t axis) {
         for (const Survey& s : operands)
             for (const Survey::Reach& r : s.sample) {
-                items.push_back({r.low[axis], r.high[axis], s.step});
-                total += items.back().weight;
+                items_.push_back({r.low[axis], r.high[axis], s.step});
+                total_ += s.step;
             }
-        std::ranges::sort(items, {}, [](const Item& i) { return i.low / 2 + i.high / 2; });
+        sort_roughly();
     }
     /// Of all slabs.
     [[nodiscard]] std::vector<std::uint64_t> loads(const Slabs& slabs) const {
         std::vector<std::uint64_t> out(slabs.count());
-        for (const Item& i : items) {
+        for (const Item& i : items_) {
             const auto range = slabs.slabs_at(i.low, i.high);
             for (std::size_t s = range[0]; s < range[1]; ++s) out[s] += i.weight;
         }
         return out;
     }
     /// Walls that give slabs of about one load, by the middles of triangles.
-    [[nodiscard]] std::vector<double> walls(std::size_t slabs, double quantum) const {
+    [[nodiscard]] std::vector<double> walls(std::size_t slabs, double quantum) {
         std::vector<double> out;
         std::uint64_t sum = 0;
-        for (const Item& i : items) {
+        for (Part& part : parts_) {
             if (out.size() + 1 >= slabs) break;
-            sum += i.weight;
-            if (sum * slabs < total * (out.size() + 1)) continue;
-            const double at = i.low / 2 + i.high / 2;
-            const double wall = (2 * std::floor(at / (2 * quantum)) + 1) * quantum;
-            if (out.empty() || wall - out.back() > 64 * quantum) out.push_back(wall);
+            // No wall would be in it.
+            if ((sum + part.weight) * slabs < total_ * (out.size() + 1)) {
+                sum += part.weight;
+                continue;
+            }
+            sort(part);
+            for (std::size_t k = part.begin; k < part.end && out.size() + 1 < slabs; ++k) {
+                sum += items_[k].weight;
+                if (sum * slabs < total_ * (out.size() + 1)) continue;
+                const double wall =
+                    (2 * std::floor(items_[k].middle() / (2 * quantum)) + 1) * quantum;
+                if (out.empty() || wall - out.back() > 64 * quantum) out.push_back(wall);
+            }
         }
         return out;
     }
+
+private:
+    struct Item {
+        double low;
+        double high;
+        std::uint64_t weight;
+        [[nodiscard]] double middle() const { return low / 2 + high / 2; }
+    };
+    /// Items that lie together in the order of their middles.
+    struct Part {
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        std::uint64_t weight = 0;
+        bool is_sorted = false;
+    };
+
+    // Into equal parts of the axis: walls are in few of them, and only these are sorted.
+    void sort_roughly() {
+        if (items_.empty()) return;
+        const auto [low, high] = std::ranges::minmax(items_, {}, &Item::middle);
+        const double from = low.middle();
+        const double size = high.middle() - from;
+        const std::size_t count = 1 + items_.size() / items_of_a_part;
+        // Never decreases with the middle, whatever is rounded.
+        const auto part_of = [&](const Item& i) {
+            const double place = (i.middle() - from) / size * static_cast<double>(count);
+            return place > 0 ? std::min(static_cast<std::size_t>(place), count - 1) : 0;
+        };
+        parts_.resize(count);
+        for (const Item& i : items_) {
+            Part& part = parts_[part_of(i)];
+            ++part.end;
+            part.weight += i.weight;
+        }
+        std::size_t begin = 0;
+        for (Part& part : parts_) {
+            part.begin = begin;
+            begin += std::exchange(part.end, begin);
+        }
+        std::vector<Item> sorted(items_.size());
+        for (const Item& i : items_) sorted[parts_[part_of(i)].end++] = i;
+        items_ = std::move(sorted);
+    }
+    void sort(Part& part) {
+        if (std::exchange(part.is_sorted, true)) return;
+        const auto at = [&](std::size_t k) {
+            return items_.begin() + static_cast<std::ptrdiff_t>(k);
+        };
+        std::ranges::sort(at(part.begin), at(part.end), {}, &Item::middle);
+    }
+
+    static constexpr std::size_t items_of_a_part = 64;
+    std::vector<Item> items_;
+    std::vector<Part> parts_;
+    std::uint64_t total_ = 0;
 };
 
 }  // namespace
