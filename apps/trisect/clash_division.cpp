@@ -2,6 +2,9 @@
 #include "clash_division.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace trisect::app {
@@ -54,25 +57,30 @@ bool are_in_order(const ClashLoads::Item& a, const ClashLoads::Item& b, std::siz
 // its place in the order.
 std::size_t half_of_load(LoadItems items, std::size_t axis) {
     const double half = load_of(items) / 2;
+    const auto in_order = [axis](const ClashLoads::Item& a, const ClashLoads::Item& b) {
+        return are_in_order(a, b, axis);
+    };
+    const auto at = [&](std::size_t i) { return items.begin() + static_cast<std::ptrdiff_t>(i); };
     double before = 0;  // of those below `lo`, which is less than half
     std::size_t lo = 0;
     std::size_t hi = items.size();
     while (hi - lo > 1) {
         const std::size_t mid = lo + (hi - lo) / 2;
-        const auto at = [&](std::size_t i) {
-            return items.begin() + static_cast<std::ptrdiff_t>(i);
-        };
-        std::nth_element(at(lo), at(mid), at(hi),
-                         [axis](const ClashLoads::Item& a, const ClashLoads::Item& b) {
-                             return are_in_order(a, b, axis);
-                         });
+        std::nth_element(at(lo), at(mid), at(hi), in_order);
         const double with = before + load_of(items.subspan(lo, mid - lo));
-        if (with < half) {
-            before = with;
-            lo = mid;
-        } else {
+        // Most loads are the same, and then the one in the middle is it.
+        if (with == half) return mid;
+        if (with > half) {
             hi = mid;
+            continue;
         }
+        if (with + items[mid].load >= half) {
+            if (mid + 1 < hi)
+                std::iter_swap(at(mid + 1), std::min_element(at(mid + 1), at(hi), in_order));
+            return mid + 1;
+        }
+        before = with;
+        lo = mid;
     }
     return hi;
 }
@@ -102,6 +110,59 @@ std::size_t halved(LoadItems items, std::size_t axis) {
     return is_fewer ? fewer : more;
 }
 
+constexpr std::size_t most_neighbours = 8 * samples_of_a_neighbourhood;
+
+// Boxes of a neighbourhood in numbers of half the size, rounded outwards and grown by what
+// clearances need: those that are apart so are no candidates.
+class NearBoxes {
+public:
+    void add(const Bounds& box, double most) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo_[k][size_] = -above(-box.lo[k]);
+            hi_[k][size_] = above(next_above(box.hi[k] + most));
+        }
+        ++size_;
+    }
+    void clear() { size_ = 0; }
+    /// Calls visit(i, j) for those that are not apart, j < i.
+    template <class Visit>
+    void for_each_pair(const Visit& visit) {
+        for (std::size_t i = 1; i < size_; ++i) {
+            look_at(i);
+            for (std::size_t j = 0; j < i; ++j)
+                if (is_near_[j] != 0) visit(i, j);
+        }
+    }
+
+private:
+    using Numbers = std::array<float, most_neighbours>;
+
+    // Not less, in the nearest ones.
+    [[nodiscard]] static float above(double v) {
+        const auto near = static_cast<float>(v);
+        return static_cast<double>(near) < v
+                   ? std::nextafter(near, std::numeric_limits<float>::infinity())
+                   : near;
+    }
+    // No branch: several at a time.
+    void look_at(std::size_t i) {
+        const std::array<float, 3> lo{lo_[0][i], lo_[1][i], lo_[2][i]};
+        const std::array<float, 3> hi{hi_[0][i], hi_[1][i], hi_[2][i]};
+        for (std::size_t j = 0; j < i; ++j)
+            is_near_[j] = static_cast<std::int32_t>(lo_[0][j] <= hi[0]) &
+                          static_cast<std::int32_t>(lo[0] <= hi_[0][j]) &
+                          static_cast<std::int32_t>(lo_[1][j] <= hi[1]) &
+                          static_cast<std::int32_t>(lo[1] <= hi_[1][j]) &
+                          static_cast<std::int32_t>(lo_[2][j] <= hi[2]) &
+                          static_cast<std::int32_t>(lo[2] <= hi_[2][j]);
+    }
+
+    std::array<Numbers, 3> lo_{};
+    std::array<Numbers, 3> hi_{};
+    std::array<std::int32_t, most_neighbours> is_near_{};
+    std::size_t size_ = 0;
+};
+
 // Counts candidates among neighbours; those of different neighbourhoods are not seen, which makes
 // the estimate smaller by about as much everywhere.
 class LoadEstimate {
@@ -109,7 +170,7 @@ public:
     LoadEstimate(std::span<const ClashBox> sample, double each, const ClashLimits& limits)
         : sample_(sample), each_(each), limits_(limits) {}
 
-    void add(LoadItems items) const {
+    void add(LoadItems items) {
         if (items.size() > samples_of_a_neighbourhood) {
             const std::size_t lower = halved(items, widest_axis(items));
             if (lower != 0) {
@@ -117,13 +178,15 @@ public:
                 return add(items.subspan(lower));
             }
         }
-        const std::size_t n = std::min(items.size(), 8 * samples_of_a_neighbourhood);
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < i; ++j)
-                if (is_candidate(limits_, sample_[items[i].number], sample_[items[j].number])) {
-                    items[i].load += cost_of_a_pair / 2 * each_;
-                    items[j].load += cost_of_a_pair / 2 * each_;
-                }
+        const std::size_t n = std::min(items.size(), most_neighbours);
+        near_.clear();
+        for (const ClashLoads::Item& item : items.first(n))
+            near_.add(sample_[item.number].box, limits_.most());
+        near_.for_each_pair([&](std::size_t i, std::size_t j) {
+            if (!is_candidate(limits_, sample_[items[i].number], sample_[items[j].number])) return;
+            items[i].load += cost_of_a_pair / 2 * each_;
+            items[j].load += cost_of_a_pair / 2 * each_;
+        });
         // Many in one place, where some stand for all.
         for (std::size_t i = n; i < items.size(); ++i)
             items[i].load =
@@ -134,6 +197,7 @@ private:
     std::span<const ClashBox> sample_;
     double each_;
     const ClashLimits& limits_;
+    NearBoxes near_;
 };
 
 }  // namespace
