@@ -44,7 +44,7 @@ bool is_valid(const LatticeMesh& mesh) {
 std::optional<bool> is_embedded_manifold(const LatticeMesh& mesh) {
     const auto manifold = detail::ManifoldMesh::of(mesh.points, mesh.triangles);
     if (!manifold) return std::nullopt;
-    if (manifold->is_starlike()) return true;
+    if (manifold->is_starlike() || manifold->is_height_field()) return true;
     const std::optional<bool> nested = manifold->are_shells_nested();
     if (!nested || !*nested) return nested;
     return manifold->has_no_contact();

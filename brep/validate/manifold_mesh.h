@@ -40,6 +40,12 @@ public:
     /// share. False as well where doubles do not decide. O(n).
     [[nodiscard]] bool is_starlike() const;
 
+    /// Whether it is plainly a surface over a flat bottom across z, which has one rim around a
+    /// point, and nowhere turns down: then it bounds a solid, seen from outside, and no two
+    /// triangles meet beyond the corners and edges that they share. False as well where doubles do
+    /// not decide. O(n).
+    [[nodiscard]] bool is_height_field() const;
+
     /// Whether it is plainly the boundary of a convex solid, seen from outside: then no two
     /// triangles meet beyond the corners and edges that they share. Exact; false as well where a
     /// corner lies within a face. Ends at the first edge that is not convex. O(n) where few edges
