@@ -48,13 +48,17 @@ void add_face(PlaneRegion& out, const Brep& brep, FaceId f, bool turn_over) {
 }  // namespace
 
 PlaneRegion region_of_faces(const Solid& solid, double height, FacesLook look) {
-    PlaneRegion out;
     if (auto flat = flat_outlines(solid)) {
-        if (height != (look == FacesLook::Up ? flat->high : flat->low)) return out;
+        if (height != (look == FacesLook::Up ? flat->high : flat->low)) return {};
         return {std::move(flat->points), std::move(flat->loops), flat_triangles(solid)};
     }
     // A mesh that meets itself is resolved by that: its own faces have walls inside the set.
-    const Brep brep = evaluate(solid).to_brep();
+    return region_of_result_faces(evaluate(solid), height, look);
+}
+
+PlaneRegion region_of_result_faces(const Solid& solid, double height, FacesLook look) {
+    PlaneRegion out;
+    const Brep brep = solid.to_brep();
     const PolygonMesh mesh = to_polygon_mesh(brep);
     for (const Point3d& p : mesh.points) out.points.push_back({p[0], p[1]});
     for (const FaceId f : brep.faces())

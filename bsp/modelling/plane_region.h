@@ -27,6 +27,8 @@ struct PlaneRegion {
 enum class FacesLook : std::uint8_t { Up, Down };
 [[nodiscard]] PlaneRegion region_of_faces(const Solid& solid, double height,
                                           FacesLook look = FacesLook::Up);
+/// The same of what evaluate() returned, whose boundary does not meet itself.
+[[nodiscard]] PlaneRegion region_of_result_faces(const Solid& solid, double height, FacesLook look);
 
 /// The outlines of a prism between z = 0 and z = 1, without corners that rounding made equal.
 [[nodiscard]] std::vector<Outline> outlines_of_prism(const Solid& prism);

@@ -50,12 +50,12 @@ PlaneRegion section(const Solid& solid, double height, const EvaluateOptions& op
     const Solid below = up_to(height);
     const double thickness = slab_thickness(solid, height);
     const Solid low = evaluate((solid & below) - up_to(height - thickness), options);
-    const PlaneRegion lower = region_of_faces(low, height, FacesLook::Up);
+    const PlaneRegion lower = region_of_result_faces(low, height, FacesLook::Up);
     // Both sides have the same faces there, if no face of the solid itself is.
     if (!may_have_face_at(solid.to_mesh(options.threads), height))
         return region_of_faces(solid_of_region(lower), 1);
     const Solid high = evaluate((solid & up_to(height + thickness)) - below, options);
-    const PlaneRegion upper = region_of_faces(high, height, FacesLook::Down);
+    const PlaneRegion upper = region_of_result_faces(high, height, FacesLook::Down);
     const Solid both = evaluate(solid_of_region(lower) | solid_of_region(upper), options);
     return region_of_faces(both, 1);
 }
