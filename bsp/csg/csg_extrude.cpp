@@ -85,7 +85,9 @@ double default_slices(const CsgArguments& arguments, double radius, double heigh
 }
 
 std::uint32_t layer_count(const CsgArguments& arguments, const PlaneRegion& region, double layers) {
-    if (!(layers * static_cast<double>(region.points.size()) <= shape_limit))
+    // A region may be empty; its layers are a number of 32 bits all the same.
+    const std::size_t points = std::max<std::size_t>(region.points.size(), 1);
+    if (!(layers * static_cast<double>(points) <= shape_limit))
         arguments.fail(ErrorCode::Limit, "too many facets");
     return static_cast<std::uint32_t>(layers);
 }

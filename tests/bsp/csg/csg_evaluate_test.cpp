@@ -305,6 +305,7 @@ TEST(CsgEvaluate, Refusals) {
     EXPECT_EQ(code_of("sphere(r = nan);"), 3);
     EXPECT_EQ(code_of("cube(size = [1, 2]);"), 3);
     EXPECT_EQ(code_of("sphere($fn = 1e9, r = 1);"), 5);
+    EXPECT_EQ(code_of("linear_extrude(height = 3, slices = 1e308, scale = [1, 0]) group();"), 5);
     EXPECT_EQ(code_of("polygon(points = [[0, 0], [1, 0], [0, 1]], paths = [[0, 1, 3]]);"), 3);
     EXPECT_EQ(code_of("multmatrix([[1, 0]]) cube();"), 3);
     EXPECT_EQ(code_of("rotate_extrude() square(size = 2, center = true);"), 3);
