@@ -151,18 +151,29 @@ std::optional<StatePtr> moved_with_fractions(StatePtr state, LatticeMove move, c
     }
 }
 
-StatePtr moved(StatePtr state, LatticeMove move, const Pose& pose, LatticeReport& report) {
+// Nothing where the moved solid would be larger than its lattice, unless it is unbounded.
+std::optional<StatePtr> moved(StatePtr state, LatticeMove move, const Pose& pose,
+                              LatticeReport& report) {
+    const LatticeReport before = report;
+    const bool is_bounded = state->far_out >= 0;
     state = refined_towards(state, wanted_lattice(*state, pose));
     report.lattice = state->lattice;
     mpq_class largest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const mpq_class t = in_units(translation_of(pose, i), state->lattice);
-        move.by[i] = rounded(t);
-        largest = std::max(largest, mpq_class(abs(t - mpq_class(detail::to_gmp(move.by[i])))));
+    StatePtr out;
+    try {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const mpq_class t = in_units(translation_of(pose, i), state->lattice);
+            move.by[i] = rounded(t);
+            largest = std::max(largest, mpq_class(abs(t - mpq_class(detail::to_gmp(move.by[i])))));
+        }
+        out = detail::moved_state(*state, move);
+    } catch (const LimitError&) {
+        if (!is_bounded) throw;
+        report = before;
+        return std::nullopt;
     }
     report.lossless = largest == 0;
     report.max_move = size_of(largest, state->lattice);
-    StatePtr out = detail::moved_state(*state, move);
     // Sets of half-spaces may have no mesh.
     if (!report.lossless && out->far_out >= 0)
         report.moved = detail::solid_of(out).to_exact_mesh().points.size();
@@ -302,7 +313,9 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
         report.moved = std::max(report.moved, import.moved);
         report.max_move += import.max_move;
     }
-    if (imported.mesh.triangles.empty())
+    // Front and back of flat triangles may be left.
+    const bool is_flat = report.flipped_faces > 0 && exact_volume(imported.mesh).is_zero();
+    if (imported.mesh.triangles.empty() || is_flat)
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
     auto [names, number] = numbered(mesh.source);
     std::vector<std::uint32_t> faces;

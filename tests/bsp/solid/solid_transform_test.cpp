@@ -188,9 +188,20 @@ TEST(TransformedSolid, OfSpecialSets) {
     EXPECT_EQ(trisect::volume(evaluate(above & box({-2, 0, 0}, {2, 1, 1}))), 2.5);
 }
 
+// There a solid whose coordinates are doubles is moved corner by corner.
 TEST(TransformedSolid, LeavesTheLattice) {
-    const Solid a = box({0, 0, 0}, {1, 1, 1});
-    EXPECT_THROW((void)trisect::transformed(a, Pose::from_translation({0x1p60, 0, 0})),
+    const Pose far = Pose::from_translation({0x1p60, 0, 0});
+    const Solid there = trisect::transformed(box({0, 0, 0}, {1024, 1, 1}), far);
+    EXPECT_EQ(trisect::volume(there), 1024);
+    EXPECT_EQ(trisect::bounds(there)->hi[0], 0x1p60 + 1024);
+    try {
+        (void)trisect::transformed(box({0, 0, 0}, {1, 1, 1}), far);
+        ADD_FAILURE() << "2^60 and 2^60 + 1 are one double";
+    } catch (const trisect::Error& e) {
+        EXPECT_EQ(e.code(), trisect::ErrorCode::InvalidSolid);
+    }
+    const Solid half = Solid::half_space({1, 0, 0, -1});
+    EXPECT_THROW((void)trisect::transformed(half, Pose::from_translation({0x1p140, 0, 0})),
                  trisect::LimitError);
 }
 
