@@ -313,9 +313,7 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
         report.moved = std::max(report.moved, import.moved);
         report.max_move += import.max_move;
     }
-    // Front and back of flat triangles may be left.
-    const bool is_flat = report.flipped_faces > 0 && exact_volume(imported.mesh).is_zero();
-    if (imported.mesh.triangles.empty() || is_flat)
+    if (imported.mesh.triangles.empty())
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
     auto [names, number] = numbered(mesh.source);
     std::vector<std::uint32_t> faces;
@@ -324,8 +322,12 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
         faces.push_back(number[imported.mesh.face_of(t)]);
     imported.mesh.face_of_triangle = std::move(faces);
     // Triangles that rounding made flat are gone, and their corners lie inside edges of others.
-    return state_of(std::move(imported.mesh), imported.report.t_edges != 0, solid.source_id(),
-                    std::move(names), is_complement);
+    StatePtr out = state_of(std::move(imported.mesh), imported.report.t_edges != 0,
+                            solid.source_id(), std::move(names), is_complement);
+    // Fronts and backs may be left.
+    if (report.flipped_faces > 0 && exact_volume(detail::solid_of(out).to_exact_mesh()).sign() == 0)
+        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    return out;
 }
 
 }  // namespace
