@@ -80,7 +80,7 @@ public:
         std::visit([&](const auto& form) { gather(form); }, solid_.form);
         if (needs_tree_) return false;
         finish();
-        return !may_cross_straight_ || !may_lack_crossings(out_);
+        return !may_cross_straight_ || find_lacking_crossings(out_);
     }
 
 private:

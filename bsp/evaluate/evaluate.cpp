@@ -79,7 +79,7 @@ EvaluateCounters& EvaluateCounters::operator-=(const EvaluateCounters& o) {
 
 Solid evaluate(const Expression& expression, const EvaluateOptions& options,
                EvaluateReport* report) {
-    const detail::Translation t = detail::translate(expression);
+    const detail::Translation t = detail::translate_without_constants(expression);
     if (auto flat = detail::evaluate_flat(t, options)) {
         if (report != nullptr) *report = {};
         if (report != nullptr) report->lattice.lattice = flat->lattice;

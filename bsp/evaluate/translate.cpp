@@ -58,6 +58,8 @@ std::uint64_t key_of(const Source& mesh) {
 // have to be counted.
 class Translator {
 public:
+    explicit Translator(bool has_values) : has_values_(has_values) {}
+
     Translation translate(const Expression& expression) {
         count_parents(*root_of(expression));
         open(*root_of(expression));
@@ -145,6 +147,9 @@ private:
     }
 
     Residual::Ref slot_of(const Solid& solid) {
+        const SolidState& state = *detail::state_of(solid);
+        if (has_values_ && !state.lattice_matters && state.far_out >= 0)
+            return Residual::constant(state.far_out > 0);
         const auto next = static_cast<std::int32_t>(out_.slots.size());
         const auto [at, inserted] = slots_.insert({detail::state_of(solid).get(), next});
         if (inserted) {
@@ -172,6 +177,7 @@ private:
         return next;
     }
 
+    bool has_values_;
     std::vector<Frame> frames_;
     std::unordered_map<const SolidState*, std::int32_t> slots_;
     std::unordered_multimap<std::uint64_t, std::int32_t> meshes_;  // slots of imported meshes
@@ -183,6 +189,13 @@ private:
 
 }  // namespace
 
-Translation translate(const Expression& expression) { return Translator().translate(expression); }
+Translation translate(const Expression& expression) {
+    return Translator(false).translate(expression);
+}
+
+Translation translate_without_constants(const Expression& expression) {
+    Translation out = Translator(true).translate(expression);
+    return out.slots.empty() ? translate(expression) : out;
+}
 
 }  // namespace trisect::detail

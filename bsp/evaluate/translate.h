@@ -20,4 +20,8 @@ struct Translation {
 /// \throw LimitError when the formula nests more than 4096 alternating operations.
 [[nodiscard]] Translation translate(const Expression& expression);
 
+/// The empty set and whole space are values in the formula and no slots, unless there is nothing
+/// else.
+[[nodiscard]] Translation translate_without_constants(const Expression& expression);
+
 }  // namespace trisect::detail

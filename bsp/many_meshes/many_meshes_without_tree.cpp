@@ -445,16 +445,26 @@ std::int64_t size_of(const Box& b) {
     return (b.hi[0] - b.lo[0]) + (b.hi[1] - b.lo[1]) + (b.hi[2] - b.lo[2]);
 }
 
+// What is left open gets smaller. But in a union of differences, where some meet as in a union and
+// others as in a difference, all grow, and those that are subtracted more than the others.
+OperandShifts::Growth growth_of(const ManyMeshes& meshes, std::uint32_t slot) {
+    OperandShifts::Growth out;
+    const bool shrinks = meshes.operands->operands[slot].is_open_below();
+    out.sign = static_cast<std::int8_t>(shrinks ? -1 : 1);
+    if (meshes.nested == nullptr) return out;
+    out.cuts = !meshes.nested->is_positive(slot);
+    if (!out.cuts && !meshes.nested->is_intersected(slot)) out.sign = 1;
+    return out;
+}
+
 std::vector<OperandShifts::Growth> growths_of(const ManyMeshes& meshes) {
     std::vector<OperandShifts::Growth> out;
     for (std::size_t i = 0; i < meshes.sources.size(); ++i) {
         const Box& b = meshes.sources[i]->box();
         const auto middle = [&](std::size_t k) { return b.lo[k] + (b.hi[k] - b.lo[k]) / 2; };
-        // What is left open gets smaller.
-        out.push_back(
-            {static_cast<std::int8_t>(meshes.operands->operands[i].is_open_below() ? -1 : 1),
-             {middle(0), middle(1), middle(2)},
-             size_of(b)});
+        out.push_back(growth_of(meshes, static_cast<std::uint32_t>(i)));
+        out.back().centre = {middle(0), middle(1), middle(2)};
+        out.back().size = size_of(b);
     }
     return out;
 }

@@ -53,6 +53,14 @@ bool NestedFormula::add(const Residual& f, bool negated, std::uint32_t parent) {
     });
 }
 
+bool NestedFormula::is_intersected(std::size_t slot) const {
+    const Node& parent = nodes_[nodes_[leaves_[slot]].parent];
+    return !parent.unites && std::ranges::any_of(parent.terms, [&](std::uint32_t t) {
+        return t != leaves_[slot] && nodes_[t].slot >= 0 &&
+               is_positive(static_cast<std::size_t>(nodes_[t].slot));
+    });
+}
+
 bool NestedFormula::unites(std::uint32_t slot, std::uint32_t other) const {
     std::uint32_t a = leaves_[slot];
     std::uint32_t b = leaves_[other];

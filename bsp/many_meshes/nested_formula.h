@@ -35,6 +35,8 @@ public:
     static constexpr std::uint32_t root = 0;
     /// Whether the operand is not complemented.
     [[nodiscard]] bool is_positive(std::size_t slot) const { return positive_[slot] != 0; }
+    /// Whether it is intersected with another operand that is not complemented.
+    [[nodiscard]] bool is_intersected(std::size_t slot) const;
     /// Whether the operation in which two operands meet is a union.
     [[nodiscard]] bool unites(std::uint32_t slot, std::uint32_t other) const;
 

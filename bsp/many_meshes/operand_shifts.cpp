@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is wanted of two operands is decided by the first of their moves that says something: the
-// larger growth, the smaller growth, the moves along the axes. An operand that grows outwards all
-// over does all that can be wanted of it; where a facet of an operand faces its centre, the other
-// operand has to grow more. Where that goes in a circle nothing grows, and the order along each
-// axis has to be right. Orders are found by taking out what nothing has to be before.
+// larger growth, the smaller growth, the moves along the axes. Which operands grow and which shrink
+// is chosen so that one of the two does what is wanted (growth_signs.h); of two of which one does
+// not the other one has to grow or shrink more. Where that goes in a circle nothing grows, and the
+// order along each axis has to be right. Orders are found by taking out what nothing has to be
+// before.
 
 #include <trisect/bsp/many_meshes/operand_shifts.h>
 
@@ -14,6 +15,8 @@
 #include <queue>
 #include <utility>
 
+#include <trisect/bsp/many_meshes/growth_signs.h>
+
 namespace trisect::detail {
 
 OperandShifts::OperandShifts(std::vector<Growth> growths) : growths_(std::move(growths)) {
@@ -21,11 +24,29 @@ OperandShifts::OperandShifts(std::vector<Growth> growths) : growths_(std::move(g
         r.resize(growths_.size());
         std::iota(r.begin(), r.end(), 0U);
     }
-    Ranks order = preferred_[1];
-    std::ranges::stable_sort(order, std::greater<>(),
-                             [&](std::uint32_t s) { return growths_[s].sign * growths_[s].size; });
-    for (std::uint32_t i = 0; i < order.size(); ++i) preferred_[1][order[i]] = i;
+    prefer_by_size();
     ranks_ = {preferred_[0], preferred_[0], preferred_[0], preferred_[1]};
+}
+
+void OperandShifts::prefer_by_size() {
+    Ranks order = preferred_[0];
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::uint32_t s) {
+        const Growth& g = growths_[s];
+        return std::pair(g.cuts, g.sign * g.size);
+    });
+    for (std::uint32_t i = 0; i < order.size(); ++i) preferred_[1][order[i]] = i;
+}
+
+bool OperandShifts::choose_signs(std::span<const Wanted> wanted) {
+    GrowthSigns signs(growths_.size());
+    for (const Wanted& w : wanted) signs.want({w.above, w.growth[0]}, {w.below, w.growth[1]});
+    std::vector<std::int8_t> given;
+    for (const Growth& g : growths_) given.push_back(g.sign);
+    const auto chosen = signs.near(given);
+    if (!chosen) return false;
+    for (std::size_t i = 0; i < growths_.size(); ++i) growths_[i].sign = (*chosen)[i];
+    prefer_by_size();
+    return true;
 }
 
 // Of those that may come next the preferred one first.
@@ -59,9 +80,10 @@ std::optional<OperandShifts::Ranks> OperandShifts::ordered(const Ranks& preferre
 bool OperandShifts::order_growths(std::span<const Wanted> wanted) {
     std::vector<Before> all;
     for (const Wanted& w : wanted) {
-        if (std::max(w.growth[0], w.growth[1]) <= 0) continue;
-        if (w.growth[0] < 0) all.push_back({w.below, w.above});
-        if (w.growth[1] < 0) all.push_back({w.above, w.below});
+        const auto [above, below] = growths_along(w);
+        if (std::max(above, below) <= 0) continue;
+        if (above < 0) all.push_back({w.below, w.above});
+        if (below < 0) all.push_back({w.above, w.below});
     }
     auto ranks = ordered(preferred_[1], all);
     if (ranks) ranks_[3] = *std::move(ranks);
@@ -95,7 +117,9 @@ std::optional<OperandShifts> OperandShifts::satisfying(std::vector<Growth> growt
     const auto are_satisfied = [&] {
         return std::ranges::all_of(wanted, [&](const Wanted& w) { return all.satisfies(w); });
     };
-    if (all.order_growths(wanted) && all.order_moves(wanted) && are_satisfied()) return all;
+    if (all.choose_signs(wanted) && all.order_growths(wanted) && all.order_moves(wanted) &&
+        are_satisfied())
+        return all;
     all.do_grow_ = false;
     if (all.order_moves(wanted) && are_satisfied()) return all;
     return std::nullopt;
@@ -104,7 +128,12 @@ std::optional<OperandShifts> OperandShifts::satisfying(std::vector<Growth> growt
 int OperandShifts::along_growth(const Wanted& w) const {
     if (!do_grow_) return 0;
     const std::size_t first = growth_rank(w.above) < growth_rank(w.below) ? 0 : 1;
-    return w.growth[first] != 0 ? w.growth[first] : w.growth[1 - first];
+    const std::array<int, 2> along = growths_along(w);
+    return along[first] != 0 ? along[first] : along[1 - first];
+}
+
+std::array<int, 2> OperandShifts::growths_along(const Wanted& w) const {
+    return {growths_[w.above].sign * w.growth[0], growths_[w.below].sign * w.growth[1]};
 }
 
 int OperandShifts::along_moves(const Wanted& w) const {

@@ -28,6 +28,7 @@ public:
         LatticePoint centre;
         std::int64_t size = 0;  ///< of two that grow the larger one grows more, unless something
                                 ///< else is wanted; of two that shrink the smaller one shrinks more
+        bool cuts = false;      ///< those that cut others grow more than these
     };
     /// Two operands with facets in one plane, between which nothing must be left: `above` has to be
     /// farther along a direction, by its signs, than `below`. What their growth does for that: 1
@@ -36,13 +37,14 @@ public:
         std::uint32_t above = 0;
         std::uint32_t below = 0;
         std::array<int, 3> direction{};
-        std::array<int, 2> growth{};  ///< of `above`, of `below`
+        std::array<int, 2> growth{};  ///< of `above`, of `below`, if they grow
         friend auto operator<=>(const Wanted&, const Wanted&) = default;
     };
 
     /// All grow by their sizes; all else is in the order of the slots.
     explicit OperandShifts(std::vector<Growth> growths);
-    /// Moves that do what is wanted. Nothing where none are found.
+    /// Moves that do what is wanted. Some that would grow may shrink, and the other way round.
+    /// Nothing where none are found.
     [[nodiscard]] static std::optional<OperandShifts> satisfying(std::vector<Growth> growths,
                                                                  std::span<const Wanted> wanted);
 
@@ -68,8 +70,11 @@ private:
     };
     [[nodiscard]] static std::optional<Ranks> ordered(const Ranks& preferred,
                                                       std::span<const Before> all);
+    void prefer_by_size();
+    [[nodiscard]] bool choose_signs(std::span<const Wanted> wanted);
     [[nodiscard]] bool order_growths(std::span<const Wanted> wanted);
     [[nodiscard]] bool order_moves(std::span<const Wanted> wanted);
+    [[nodiscard]] std::array<int, 2> growths_along(const Wanted& wanted) const;
     [[nodiscard]] int along_moves(const Wanted& wanted) const;
     [[nodiscard]] int along_growth(const Wanted& wanted) const;
 

@@ -131,12 +131,12 @@ bool SpecialPairs::look_at_plane(std::uint32_t first, std::uint32_t second, bool
     return true;
 }
 
-// Whether an operand grows upwards in the plane of a facet, or downwards; 0 where the centre is in
-// it, so that the moves decide.
+// Whether an operand that grows does so upwards in the plane of a facet, or downwards; 0 where the
+// centre is in it, so that the moves decide.
 int SpecialPairs::growth_along(std::uint32_t slot, std::uint32_t facet) const {
     const OperandShifts::Growth& g = meshes_.shifts->growth(slot);
     InfinitesimalShift shift;
-    shift.growth = g.sign;
+    shift.growth = 1;
     shift.centre = g.centre;
     const FacetCorners corners = meshes_.lattice_corners(facet);
     const int side = side_of_shifted(corners, shift);

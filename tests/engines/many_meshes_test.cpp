@@ -25,6 +25,7 @@
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
+#include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
@@ -305,7 +306,47 @@ TEST(ManyMeshes, FacesCrossStraightInALine) {
                 count);
         }
     EXPECT_EQ(count.without_tree, 9);
-    EXPECT_EQ(count.by_tree, 9);
+    EXPECT_EQ(count.by_tree, 0);
+}
+
+// Solids that stand on each other are united, and tools that are flush with them are subtracted
+// from some: those that are united have to grow, and the tools more than these.
+TEST(ManyMeshes, ToolsAreFlushWithWhatStandsOnSomething) {
+    Count count;
+    for (std::size_t turns = 0; turns < 3; ++turns)
+        for (const std::int64_t top : {4, 6, 8}) {
+            SCOPED_TRACE(std::to_string(turns) + ", " + std::to_string(top));
+            std::vector<Operand> operands{
+                reference::box({0, 0, 0}, {10, 10, 4}), reference::box({2, 2, 4}, {8, 8, top + 2}),
+                reference::prism({{4, 4}, {6, 4}, {6, 6}, {5, 7}, {4, 6}}, 4, top + 2),
+                reference::box({0, 4, 1}, {10, 6, 4})};
+            for (Operand& o : operands) o = reference::axes_rotated(o, turns);
+            const auto leaf = [](std::size_t i) { return Expression::leaf(i); };
+            expect_agreement(
+                operands,
+                Expression::node(Kind::Union,
+                                 {Expression::node(Kind::Difference, {leaf(0), leaf(3)}),
+                                  Expression::node(Kind::Difference, {leaf(1), leaf(2)})}),
+                count);
+        }
+    EXPECT_EQ(count.without_tree, 9);
+    EXPECT_EQ(count.by_tree, 0);
+}
+
+// The empty set and whole space are no operands.
+TEST(ManyMeshes, ConstantsAreLeftOut) {
+    std::vector<trisect::Solid> solids;
+    for (const std::int64_t x : {0, 3, 6})
+        solids.push_back(
+            engines::solid(reference::box({x, 0, 0}, {x + 4, 4, 4}), trisect::Embedding::Assume));
+    const trisect::Expression all = trisect::Expression::any_of({solids[0], solids[1], solids[2]});
+    const auto left = trisect::detail::translate_without_constants(
+        (all | trisect::Solid()) & trisect::Solid::whole_space());
+    EXPECT_EQ(left.slots.size(), 3U);
+    EXPECT_EQ(trisect::detail::translate_without_constants(trisect::Solid()).slots.size(), 1U);
+    EXPECT_EQ(trisect::volume(trisect::evaluate(all | trisect::Solid())), 160);
+    EXPECT_TRUE(trisect::evaluate(all & trisect::Solid()).is_empty());
+    EXPECT_TRUE(trisect::evaluate(all | trisect::Solid::whole_space()).is_whole_space());
 }
 
 // Copies along an axis, parts on top of each other, tools flush with what they cut.

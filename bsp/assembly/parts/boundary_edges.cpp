@@ -168,6 +168,10 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     edges.swap(out);
     conform_splitters(parts, edges);
     put_back_crossings(parts, all_cancelled, edges);
+    if (parts.crossings.empty()) return;
+    edges.insert(edges.end(), parts.crossings.begin(), parts.crossings.end());
+    sort_by_facet(parts, edges);
+    arrange_loops(edges);
 }
 
 void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {

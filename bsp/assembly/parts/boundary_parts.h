@@ -35,6 +35,9 @@ struct BoundaryParts {
     bool are_joined = false;
     /// As CellTree::may_have_straight_crossings.
     bool may_have_straight_crossings = false;
+    /// Edges inside facets in which their faces go straight across others, each in both directions.
+    /// Joining adds them.
+    std::vector<BoundaryEdge> crossings;
     AssemblyStats stats;
 };
 

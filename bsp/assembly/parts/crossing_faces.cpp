@@ -10,13 +10,10 @@
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <tuple>
 
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
-#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 
 namespace trisect::detail {
@@ -146,119 +143,5 @@ void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge
     sort_by_facet(parts, edges);
     arrange_loops(edges);
 }
-
-namespace {
-
-// Edges in special position, by segment; and faces that may go straight across one of them.
-class LackingCrossings {
-public:
-    explicit LackingCrossings(const BoundaryParts& parts) : parts_(parts) {
-        for (const BoundaryEdge& e : parts.edges)
-            if (facet(e).is_special) edges_.push_back(&e);
-        std::ranges::sort(edges_, {}, [](const BoundaryEdge* e) { return ends_of(*e); });
-    }
-    [[nodiscard]] bool any() {
-        for (std::size_t i = 0; i < edges_.size();) {
-            std::size_t j = i + 1;
-            while (j < edges_.size() && ends_of(*edges_[j]) == ends_of(*edges_[i])) ++j;
-            if (may_lack(std::span(edges_).subspan(i, j - i))) return true;
-            i = j;
-        }
-        return false;
-    }
-
-private:
-    using Edges = std::span<const BoundaryEdge* const>;
-    struct OfPlane {
-        PlaneId plane = 0;  // of the first facet
-        bool up = false;
-        bool down = false;
-        bool back_up = false;  // of facets that face the other way
-        bool back_down = false;
-        [[nodiscard]] bool is_straight() const { return (up && down) || (back_up && back_down); }
-    };
-
-    // Three planes through a line, two of whose faces may go on behind it.
-    [[nodiscard]] bool may_lack(Edges edges) {
-        if (edges.size() < 3) return false;
-        list_planes(edges);
-        const auto straight = std::ranges::count_if(planes_, &OfPlane::is_straight);
-        if (planes_.size() < 2 || straight == 0) return false;
-        if (planes_.size() > 2 && straight > 1) return true;
-        return is_in_other_face(*edges[0]);
-    }
-    void list_planes(Edges edges) {
-        planes_.clear();
-        for (const BoundaryEdge* e : edges) {
-            const BoundaryFacet& f = facet(*e);
-            const Plane& p = parts_.bench.plane_at(f.support);
-            auto known = std::ranges::find_if(planes_, [&](const OfPlane& o) {
-                return o.plane == f.support || is_same_plane(parts_.bench.plane_at(o.plane), p);
-            });
-            if (known == planes_.end()) known = planes_.insert(known, {f.support});
-            const bool same = same_orientation(parts_.bench.plane_at(known->plane), p) != f.flipped;
-            const bool is_up = e->from < e->to;
-            if (same) (is_up ? known->up : known->down) = true;
-            if (!same) (is_up ? known->back_up : known->back_down) = true;
-        }
-    }
-    // Whether a facet of one more plane may have the edge in it.
-    [[nodiscard]] bool is_in_other_face(const BoundaryEdge& e) {
-        const Workbench& bench = parts_.bench;
-        if (boxes_.empty()) list_boxes();
-        const Approximation& a = bench.approximation(e.from);
-        const Approximation& b = bench.approximation(e.to);
-        return std::ranges::any_of(boxes_, [&](const FacetBox& f) {
-            if (!f.contains(a) || !f.contains(b)) return false;
-            if (bench.side(e.from, f.support) != 0 || bench.side(e.to, f.support) != 0)
-                return false;
-            return std::ranges::none_of(planes_, [&](const OfPlane& o) {
-                return o.plane == f.support ||
-                       is_same_plane(bench.plane_at(o.plane), bench.plane_at(f.support));
-            });
-        });
-    }
-
-    struct FacetBox {
-        std::array<double, 3> lo{HUGE_VAL, HUGE_VAL, HUGE_VAL};
-        std::array<double, 3> hi{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-        PlaneId support = 0;
-        [[nodiscard]] bool contains(const Approximation& p) const {
-            for (std::size_t k = 0; k < 3; ++k)
-                if (p.c[k] + error_slack * p.error < lo[k] ||
-                    p.c[k] - error_slack * p.error > hi[k])
-                    return false;
-            return true;
-        }
-    };
-    void list_boxes() {
-        for (const BoundaryFacet& f : parts_.facets) {
-            if (!f.is_special) continue;
-            FacetBox& box = boxes_.emplace_back();
-            box.support = f.support;
-            for (int i = 0; i < 3; ++i) {
-                const auto c = f.source->corner(f.facet, i).doubles();
-                for (std::size_t k = 0; k < 3; ++k) {
-                    box.lo[k] = std::min(box.lo[k], c[k]);
-                    box.hi[k] = std::max(box.hi[k], c[k]);
-                }
-            }
-        }
-    }
-
-    [[nodiscard]] const BoundaryFacet& facet(const BoundaryEdge& e) const {
-        return parts_.facets[as_index(e.facet)];
-    }
-
-    const BoundaryParts& parts_;
-    std::vector<const BoundaryEdge*> edges_;
-    std::vector<OfPlane> planes_;  // of a segment
-    std::vector<FacetBox> boxes_;  // of facets in special position, once they are needed
-};
-
-}  // namespace
-
-// Where faces cross straight, one of them may have no edge: what touches it there was moved away.
-bool may_lack_crossings(const BoundaryParts& parts) { return LackingCrossings(parts).any(); }
 
 }  // namespace trisect::detail

@@ -49,8 +49,8 @@ struct WholeFacetEdge {
 [[nodiscard]] std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
                                                           std::span<const BoundaryEdge> edges);
 
-/// Of outlines of moved meshes: whether an edge may be missing in which faces go straight across
-/// each other. \pre edges on one segment have the same ends. May say yes too often.
-[[nodiscard]] bool may_lack_crossings(const BoundaryParts& parts);
+/// Of outlines of moved meshes: makes BoundaryParts::crossings. False where an outline crosses such
+/// an edge, or has a part of it. \pre edges on one segment have the same ends
+[[nodiscard]] bool find_lacking_crossings(BoundaryParts& parts);
 
 }  // namespace trisect::detail

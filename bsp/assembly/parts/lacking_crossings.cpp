@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where faces cross straight, one of them may have no edge: what touches it there was moved away
+// by an infinitesimal. It is in special position, and so is what has an edge there. Two faces that
+// cross are seen where one of them is divided on the segment, with a third facet beside it.
+//
+// A facet that has no edge on the segment, or as many one way as the other, goes straight across it
+// if the segment is inside its outline; else it is not there, or it has no width there.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/assembly/parts/crossing_faces.h>
+#include <trisect/bsp/assembly/parts/facet_boxes.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/support/as_index.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Edges in special position, by segment; and facets that may have one of them inside.
+class LackingCrossings {
+public:
+    explicit LackingCrossings(BoundaryParts& parts) : parts_(parts) {
+        for (const BoundaryEdge& e : parts.edges)
+            if (facet(e).is_special) edges_.push_back(e);
+        std::ranges::stable_sort(edges_, {}, [](const BoundaryEdge& e) { return ends_of(e); });
+    }
+    [[nodiscard]] bool add() {
+        for (std::size_t i = 0; i < edges_.size();) {
+            std::size_t j = i + 1;
+            while (j < edges_.size() && ends_of(edges_[j]) == ends_of(edges_[i])) ++j;
+            const Edges edges = std::span(edges_).subspan(i, j - i);
+            if (may_lack(edges) && !add_at(edges)) return false;
+            i = j;
+        }
+        return true;
+    }
+
+private:
+    using Edges = std::span<const BoundaryEdge>;
+    struct OfPlane {
+        PlaneId plane = 0;  // of the first facet
+        bool up = false;
+        bool down = false;
+        bool back_up = false;  // of facets that face the other way
+        bool back_down = false;
+        [[nodiscard]] bool is_straight() const { return (up && down) || (back_up && back_down); }
+    };
+    enum class Place : std::uint8_t { Outside, Inside, Unknown };
+
+    // Planes through a line, the face of one of which goes on behind it.
+    [[nodiscard]] bool may_lack(Edges edges) {
+        if (edges.size() < 3) return false;
+        list_planes(edges);
+        return planes_.size() > 1 && std::ranges::any_of(planes_, &OfPlane::is_straight);
+    }
+    void list_planes(Edges edges) {
+        planes_.clear();
+        for (const BoundaryEdge& e : edges) {
+            const BoundaryFacet& f = facet(e);
+            const Plane& p = parts_.bench.plane_at(f.support);
+            auto known = std::ranges::find_if(planes_, [&](const OfPlane& o) {
+                return o.plane == f.support || is_same_plane(parts_.bench.plane_at(o.plane), p);
+            });
+            if (known == planes_.end()) known = planes_.insert(known, {f.support});
+            const bool same = same_orientation(parts_.bench.plane_at(known->plane), p) != f.flipped;
+            const bool is_up = e.from < e.to;
+            if (same) (is_up ? known->up : known->down) = true;
+            if (!same) (is_up ? known->back_up : known->back_down) = true;
+        }
+    }
+    // Where faces cross in the segment: twice to each facet that has it inside.
+    [[nodiscard]] bool add_at(Edges edges) {
+        if (!boxes_) list_boxes();
+        const BoundaryEdge& e = edges[0];
+        here_.clear();
+        inside_.clear();
+        const auto look_at = [&](std::int32_t number) { return note_facet(number, e); };
+        if (!boxes_->all_around(parts_.bench.approximation(e.from),
+                                parts_.bench.approximation(e.to), look_at))
+            return false;
+        if (cross_straight(here_))
+            parts_.crossings.insert(parts_.crossings.end(), inside_.begin(), inside_.end());
+        return true;
+    }
+    // What a facet has of a segment. False where that is not known.
+    [[nodiscard]] bool note_facet(std::int32_t number, const BoundaryEdge& e) {
+        const Workbench& bench = parts_.bench;
+        const BoundaryFacet& f = parts_.facets[as_index(number)];
+        if (bench.side(e.from, f.support) != 0 || bench.side(e.to, f.support) != 0) return true;
+        int up = 0;
+        for (const BoundaryEdge& own : edges_of(number))
+            if (ends_of(own) == ends_of(e)) up += own.from < own.to ? 1 : -1;
+        if (up != 0) {
+            here_.push_back({f.source, f.facet, f.flipped, up > 0});
+            return true;
+        }
+        const auto across = plane_across(f.support);
+        if (!across) return false;
+        const Place place = place_in(number, e, *across);
+        if (place != Place::Inside) return place == Place::Outside;
+        const auto above = is_left_above(e, f, *across);
+        if (!above) return false;
+        for (const bool is_up : {true, false})
+            here_.push_back({f.source, f.facet, f.flipped, is_up});
+        inside_.push_back({e.from, e.to, number, {*across, *above}});
+        inside_.push_back({e.to, e.from, number, {*across, !*above}});
+        return true;
+    }
+    // Whether what lies above a plane through an edge is on its left, seen from outside. With the
+    // plane's normal m and the facet's N, that is where the edge runs along m×N (vertex_turn.cpp).
+    [[nodiscard]] std::optional<bool> is_left_above(const BoundaryEdge& e, const BoundaryFacet& f,
+                                                    PlaneId across) const {
+        const Workbench& bench = parts_.bench;
+        const Approximation& a = bench.approximation(e.from);
+        const Approximation& b = bench.approximation(e.to);
+        int axis = 0;
+        for (int k = 1; k < 3; ++k)
+            if (std::fabs(b.c[as_index(k)] - a.c[as_index(k)]) >
+                std::fabs(b.c[as_index(axis)] - a.c[as_index(axis)]))
+                axis = k;
+        const double way = b.c[as_index(axis)] - a.c[as_index(axis)];
+        if (std::fabs(way) <= error_slack * (a.error + b.error)) return std::nullopt;
+        const int turn = sign_of_det(bench.plane_at(across), bench.plane_at(f.support),
+                                     Plane::axis_aligned(axis, 1, 0));
+        if (turn == 0) return std::nullopt;
+        return ((turn > 0) == (way > 0)) != f.flipped;
+    }
+    // Through the segment, another plane than this one.
+    [[nodiscard]] std::optional<PlaneId> plane_across(PlaneId support) const {
+        for (const OfPlane& o : planes_)
+            if (o.plane != support &&
+                !is_same_plane(parts_.bench.plane_at(o.plane), parts_.bench.plane_at(support)))
+                return o.plane;
+        return std::nullopt;
+    }
+    // Of a segment in the plane of a facet. It is inside if its line, beyond one of its ends, meets
+    // an odd number of edges of the outline.
+    [[nodiscard]] Place place_in(std::int32_t number, const BoundaryEdge& segment,
+                                 PlaneId across) const {
+        const Workbench& bench = parts_.bench;
+        bool inside = false;
+        for (const BoundaryEdge& e : edges_of(number)) {
+            if (ends_of(e) == ends_of(segment)) continue;
+            const int from = bench.side(e.from, across);
+            const int to = bench.side(e.to, across);
+            if (from == to && from != 0) continue;
+            if (from == 0 && to == 0) {
+                if (!are_apart(segment, e)) return Place::Unknown;
+                continue;
+            }
+            const int a = bench.side(segment.from, e.line.plane);
+            const int b = bench.side(segment.to, e.line.plane);
+            if (a == -b) return Place::Unknown;
+            if ((from > 0) == (to > 0)) continue;
+            const bool is_up = to > from;
+            const bool is_in_half_plane = (a + b > 0) == e.line.above;
+            if (is_up == is_in_half_plane) inside = !inside;
+        }
+        return inside ? Place::Inside : Place::Outside;
+    }
+    // Of two segments on one line: whether one ends where the other one begins, or before.
+    [[nodiscard]] bool are_apart(const BoundaryEdge& a, const BoundaryEdge& b) const {
+        return lie_beyond(a.from, a.to, b) || lie_beyond(a.to, a.from, b) ||
+               lie_beyond(b.from, b.to, a) || lie_beyond(b.to, b.from, a);
+    }
+    // Behind the first point of a segment, seen from the other one, as far as that is known.
+    [[nodiscard]] bool lie_beyond(PointId end, PointId other, const BoundaryEdge& e) const {
+        const Workbench& bench = parts_.bench;
+        const Approximation& p = bench.approximation(end);
+        const Approximation& q = bench.approximation(other);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double way = q.c[k] > p.c[k] ? 1 : -1;
+            const auto is_behind = [&](PointId v) {
+                const Approximation& a = bench.approximation(v);
+                return way * (p.c[k] - a.c[k]) > error_slack * (p.error + a.error);
+            };
+            if (std::fabs(q.c[k] - p.c[k]) > error_slack * (p.error + q.error) &&
+                (e.from == end || is_behind(e.from)) && (e.to == end || is_behind(e.to)))
+                return true;
+        }
+        if (bench.is_corner(end)) return false;
+        for (const PlaneId plane : bench.planes_of(end)) {
+            const int side = bench.side(other, plane);
+            if (side == 0) continue;
+            return side * bench.side(e.from, plane) <= 0 && side * bench.side(e.to, plane) <= 0;
+        }
+        return false;
+    }
+    [[nodiscard]] Edges edges_of(std::int32_t number) const {
+        const std::size_t first = first_[as_index(number)];
+        return std::span(by_facet_).subspan(first, first_[as_index(number) + 1] - first);
+    }
+    void list_boxes() {
+        by_facet_ = edges_;
+        std::ranges::stable_sort(by_facet_, {}, &BoundaryEdge::facet);
+        first_.assign(parts_.facets.size() + 1, 0);
+        for (const BoundaryEdge& e : by_facet_) ++first_[as_index(e.facet) + 1];
+        for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+        std::vector<FacetBox> boxes;
+        for (std::size_t f = 0; f < parts_.facets.size(); ++f) {
+            const Edges edges = edges_of(static_cast<std::int32_t>(f));
+            if (edges.empty()) continue;
+            FacetBox& box = boxes.emplace_back();
+            box.facet = static_cast<std::int32_t>(f);
+            for (const BoundaryEdge& e : edges) box.add(parts_.bench.approximation(e.from));
+        }
+        boxes_.emplace(std::move(boxes));
+    }
+
+    [[nodiscard]] const BoundaryFacet& facet(const BoundaryEdge& e) const {
+        return parts_.facets[as_index(e.facet)];
+    }
+
+    BoundaryParts& parts_;
+    std::vector<BoundaryEdge> edges_;
+    std::vector<BoundaryEdge> by_facet_;  // the same, once they are needed
+    std::vector<std::size_t> first_;      // of these
+    std::optional<FacetBoxes> boxes_;     // of facets that have some
+    std::vector<OfPlane> planes_;         // of a segment
+    std::vector<FacetEdge> here_;         // of a segment
+    std::vector<BoundaryEdge> inside_;
+};
+
+}  // namespace
+
+bool find_lacking_crossings(BoundaryParts& parts) { return LackingCrossings(parts).add(); }
+
+}  // namespace trisect::detail
