@@ -79,6 +79,8 @@ struct PrismOutlines {
     std::shared_ptr<const LazyTree> tree;  ///< not null
 };
 
+struct FlatPrisms;
+
 /// A prism over a region of the plane, along an axis; the directions of the region are the next
 /// axes.
 struct FlatPrism {
@@ -87,6 +89,15 @@ struct FlatPrism {
     Coordinate low;  ///< along the axis
     Coordinate high;
     std::shared_ptr<const LazyTree> tree;  ///< not null
+    /// What it was made of, if its region has vertices that are no corners: else null. Prisms over
+    /// regions without such vertices are meshes.
+    std::shared_ptr<const FlatPrisms> made_of = nullptr;
+};
+
+/// A formula of prisms at one place.
+struct FlatPrisms {
+    Residual::Ref formula;
+    std::vector<Solid> slots;
 };
 
 using SolidForm = std::variant<CellTree, UndividedMeshes, PrismOutlines, FlatPrism>;

@@ -65,6 +65,55 @@ void note_constant(SolidState& state) {
     state.far_out = (root.winding() > 0) != tree->root.complemented ? 1 : 0;
 }
 
+// A formula with its operands on one lattice.
+class Operands {
+public:
+    Operands(const detail::Translation& t, const EvaluateOptions& options)
+        : formula_(t.formula),
+          states_(cut_states(t)),
+          lattice_(detail::move_to_common_lattice(states_, options.lattices)),
+          settings_{options, are_whole() ? detail::SplittingOffset::of_thread()
+                                         : detail::usual_splitting_offset},
+          limited_(settings_) {}
+
+    /// Null where no rule for formulas applies.
+    [[nodiscard]] std::shared_ptr<SolidState> without_tree() {
+        for (const detail::Rule& rule : detail::formula_rules())
+            if (auto state = detail::evaluate_by(std::get<detail::FormulaRule>(rule.how), formula_,
+                                                 states_, settings_, made_))
+                return state;
+        return nullptr;
+    }
+    [[nodiscard]] std::shared_ptr<SolidState> by_tree() {
+        return detail::evaluate_tree(formula_, states_, settings_, made_);
+    }
+    [[nodiscard]] Solid finish(std::shared_ptr<SolidState> state, EvaluateReport* report) {
+        limited_.finish(made_);
+        detail::counters_of_thread<EvaluateCounters> += made_;
+        state->lattice = lattice_.lattice;
+        note_constant(*state);
+        if (report != nullptr) *report = {lattice_, made_.memory, made_.depth};
+        return detail::solid_of(std::move(state));
+    }
+
+private:
+    static detail::SolidStates cut_states(const detail::Translation& t) {
+        detail::SolidStates out;
+        for (const Solid& s : t.slots) out.push_back(detail::cut_state(s));
+        return out;
+    }
+    [[nodiscard]] bool are_whole() const {
+        return std::ranges::all_of(states_, [](const auto& s) { return s->whole; });
+    }
+
+    detail::Residual::Ref formula_;
+    detail::SolidStates states_;
+    LatticeReport lattice_;
+    detail::EvaluateSettings settings_;
+    detail::LimitedEvaluation limited_;
+    detail::EvaluateStats made_;
+};
+
 }  // namespace
 
 EvaluateCounters& EvaluateCounters::operator+=(const EvaluateCounters& o) {
@@ -85,26 +134,14 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options,
         if (report != nullptr) report->lattice.lattice = flat->lattice;
         return detail::solid_of(std::move(flat));
     }
-    detail::SolidStates states;
-    for (const Solid& s : t.slots) states.push_back(detail::cut_state(s));
-    const LatticeReport lattice = detail::move_to_common_lattice(states, options.lattices);
-    const bool whole = std::ranges::all_of(states, [](const auto& s) { return s->whole; });
-    detail::EvaluateSettings settings{
-        options, whole ? detail::SplittingOffset::of_thread() : detail::usual_splitting_offset};
-    detail::LimitedEvaluation limited(settings);
-    detail::EvaluateStats made;
-    std::shared_ptr<SolidState> state;
-    for (const detail::Rule& rule : detail::formula_rules())
-        if (state == nullptr)
-            state = detail::evaluate_by(std::get<detail::FormulaRule>(rule.how), t.formula, states,
-                                        settings, made);
-    if (state == nullptr) state = detail::evaluate_tree(t.formula, states, settings, made);
-    limited.finish(made);
-    detail::counters_of_thread<EvaluateCounters> += made;
-    state->lattice = lattice.lattice;
-    note_constant(*state);
-    if (report != nullptr) *report = {lattice, made.memory, made.depth};
-    return detail::solid_of(std::move(state));
+    if (const auto prisms = detail::over_prisms(t)) {
+        Operands operands(*prisms, options);
+        if (auto state = operands.without_tree()) return operands.finish(std::move(state), report);
+    }
+    Operands operands(t, options);
+    auto state = operands.without_tree();
+    if (state == nullptr) state = operands.by_tree();
+    return operands.finish(std::move(state), report);
 }
 
 }  // namespace trisect

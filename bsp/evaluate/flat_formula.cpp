@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -13,6 +15,7 @@
 #include <trisect/bsp/flat/flat_arrangement.h>
 #include <trisect/bsp/flat/flat_outline.h>
 #include <trisect/bsp/flat/flat_state.h>
+#include <trisect/kernel/support/deep_recursion.h>
 
 namespace trisect::detail {
 
@@ -95,13 +98,82 @@ std::shared_ptr<SolidState> evaluate_flat(const Translation& t, const EvaluateOp
     EvaluateSettings settings{options};
     FlatRegion region = flat_outline(arrangement, terms.slots, *formula, settings);
     if (region.is_empty()) return std::make_shared<SolidState>(*state_of(Solid()));
+    const bool is_mesh = region.has_corners_only();
     region.lattice = {exponent};
     region.cap_names = terms.prisms[0]->operand->given().cap_names;
     const FlatPrism& first = *terms.prisms[0];
     const auto shifted = [&](Coordinate c) {
         return Coordinate(std::ldexp(c.to_double(), terms.lattices[0].exponent - exponent));
     };
-    return flat_state(std::move(region), first.axis, shifted(first.low), shifted(first.high));
+    auto state = flat_state(std::move(region), first.axis, shifted(first.low), shifted(first.high));
+    if (!is_mesh)
+        std::get<FlatPrism>(state->form).made_of =
+            std::make_shared<const FlatPrisms>(FlatPrisms{t.formula, t.slots});
+    return state;
+}
+
+namespace {
+
+bool is_mesh(const Solid& solid) {
+    const auto* const prism = std::get_if<FlatPrism>(&state_of(solid)->form);
+    return prism != nullptr && prism->operand->resolved().has_corners_only();
+}
+
+// Slots get new numbers; the same solid has one.
+class PrismWriter {
+public:
+    [[nodiscard]] std::optional<Translation> over_prisms(const Translation& t) {
+        bool is_other = false;
+        std::vector<Residual::Ref> terms;
+        for (const Solid& s : t.slots) {
+            const auto* const prism = std::get_if<FlatPrism>(&state_of(s)->form);
+            const FlatPrisms* const made_of = prism == nullptr ? nullptr : prism->made_of.get();
+            if (made_of == nullptr) {
+                terms.push_back(slot_of(s));
+                continue;
+            }
+            if (!std::ranges::all_of(made_of->slots, &is_mesh)) return std::nullopt;
+            is_other = true;
+            std::vector<Residual::Ref> slots;
+            for (const Solid& p : made_of->slots) slots.push_back(slot_of(p));
+            terms.push_back(with_terms(*made_of->formula, slots));
+        }
+        if (!is_other) return std::nullopt;
+        out_.formula = with_terms(*t.formula, terms);
+        return std::move(out_);
+    }
+
+private:
+    Residual::Ref slot_of(const Solid& solid) {
+        const auto [at, is_new] =
+            numbers_.try_emplace(state_of(solid).get(), static_cast<std::int32_t>(slots_.size()));
+        if (is_new) {
+            out_.slots.push_back(solid);
+            slots_.push_back(Residual::of_slot(at->second));
+        }
+        return slots_[static_cast<std::size_t>(at->second)];
+    }
+    static Residual::Ref with_terms(const Residual& f, const std::vector<Residual::Ref>& terms) {
+        if (f.kind == Residual::Kind::Constant) return Residual::constant(f.value);
+        if (f.kind == Residual::Kind::Slot) return terms[static_cast<std::size_t>(f.slot)];
+        std::vector<Residual::Ref> children;
+        for (const Residual::Ref& c : f.children)
+            children.push_back(with_enough_stack([&] { return with_terms(*c, terms); }));
+        return f.kind == Residual::Kind::Not ? Residual::negation(std::move(children[0]))
+                                             : Residual::combination(f.kind, children);
+    }
+
+    std::unordered_map<const SolidState*, std::int32_t> numbers_;
+    std::vector<Residual::Ref> slots_;
+    Translation out_;
+};
+
+}  // namespace
+
+// A large formula may share parts, and would be written out as a tree.
+std::optional<Translation> over_prisms(const Translation& translation) {
+    if (translation.formula->operations == Residual::many_operations) return std::nullopt;
+    return PrismWriter().over_prisms(translation);
 }
 
 }  // namespace trisect::detail

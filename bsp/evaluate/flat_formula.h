@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/evaluate/translate.h>
@@ -16,5 +17,9 @@ namespace trisect::detail {
 /// which all are exact.
 [[nodiscard]] std::shared_ptr<SolidState> evaluate_flat(const Translation& translation,
                                                         const EvaluateOptions& options);
+
+/// The same formula, with prisms that are meshes in place of prisms that were made of them and are
+/// none. Nothing where there are no such operands, or some that are made of others than meshes.
+[[nodiscard]] std::optional<Translation> over_prisms(const Translation& translation);
 
 }  // namespace trisect::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// GrowthSigns: which of many operands grow, and which shrink.
+// GrowthSigns: the choice of those of many operands that grow.
 #pragma once
 
 #include <array>

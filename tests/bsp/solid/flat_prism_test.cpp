@@ -4,6 +4,8 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/point_2d.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/evaluate/flat_formula.h>
+#include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/solid_measure.h>
@@ -13,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,6 +45,13 @@ void expect_valid(const Solid& solid) {
 void expect_same(const Solid& flat, const Expression& solids) {
     EXPECT_TRUE(evaluate(flat ^ solids).is_empty());
     EXPECT_EQ(exact(flat), exact(evaluate(solids)));
+}
+
+// Work is limited, so that cells are divided.
+EvaluateOptions by_cells() {
+    EvaluateOptions out;
+    out.max_memory = std::uint64_t{1} << 32U;
+    return out;
 }
 
 TEST(FlatPrism, OutlinesByTheirRules) {
@@ -122,6 +132,25 @@ TEST(FlatPrism, OtherHeightsAndAxesGoTheWayOfSolids) {
     EXPECT_EQ(volume(Solid::from_mesh(moved->to_mesh())), 8);
     EXPECT_FALSE(flat_prism(std::array{square(0, 2)}, OutlineRule::Odd, 0, 1,
                             AffineMap::rotation({1, 0, 0}, 30)));
+}
+
+// Where its sides cross within units of the lattice it is no mesh, and goes as what it is made of.
+TEST(FlatPrism, CrossingsAreMadeOfMeshes) {
+    const Solid sign = prism({{{0, 0}, {7, 1}, {6, 4}, {1, 5}}});
+    const Solid bar = prism({{{2, -1}, {4, -1}, {5, 6}, {3, 6}}});
+    const Solid flat = evaluate(sign - bar);
+    const Solid base = Solid::from_mesh(make_box({-2, -2, -1}, {9, 8, 0}));
+    const Solid peg = Solid::from_mesh(make_box({0, 0, 0.5}, {1, 7, 2}));
+    const Expression formula = (base | flat) - peg;
+    const auto prisms = detail::over_prisms(detail::translate(formula));
+    ASSERT_TRUE(prisms.has_value());
+    EXPECT_EQ(prisms->slots.size(), 4U);
+    EXPECT_FALSE(detail::over_prisms(detail::translate(base - peg)).has_value());
+    EXPECT_FALSE(detail::over_prisms(detail::translate(base | sign)).has_value());
+    const Solid result = evaluate(formula);
+    expect_valid(result);
+    EXPECT_TRUE(evaluate(result ^ ((base | (sign - bar)) - peg)).is_empty());
+    EXPECT_EQ(exact(result), exact(evaluate(formula, by_cells())));
 }
 
 TEST(FlatPrism, MirrorsKeepTheInside) {
