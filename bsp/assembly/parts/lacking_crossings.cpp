@@ -187,11 +187,36 @@ private:
                 (e.from == end || is_behind(e.from)) && (e.to == end || is_behind(e.to)))
                 return true;
         }
-        if (bench.is_corner(end)) return false;
+        if (bench.is_corner(end)) return are_about(end, other, e);
         for (const PlaneId plane : bench.planes_of(end)) {
             const int side = bench.side(other, plane);
             if (side == 0) continue;
             return side * bench.side(e.from, plane) <= 0 && side * bench.side(e.to, plane) <= 0;
+        }
+        return false;
+    }
+    // Around a common end, if the edge is much shorter: then the common end is between the two
+    // others where these are on different sides of it, seen from the end of the edge.
+    [[nodiscard]] bool are_about(PointId end, PointId other, const BoundaryEdge& e) const {
+        const Workbench& bench = parts_.bench;
+        if (e.from != end && e.to != end) return false;
+        const PointId near = e.from == end ? e.to : e.from;
+        if (bench.is_corner(near)) return false;
+        const Approximation& p = bench.approximation(end);
+        const auto way = [&](PointId v, std::size_t k) {
+            return std::fabs(bench.approximation(v).c[k] - p.c[k]);
+        };
+        double longest = 0;
+        double longest_near = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            longest = std::max(longest, way(other, k));
+            longest_near = std::max(longest_near, way(near, k));
+        }
+        const double error = bench.approximation(other).error + bench.approximation(near).error;
+        if (longest <= 2 * (longest_near + error_slack * (p.error + error))) return false;
+        for (const PlaneId plane : bench.planes_of(near)) {
+            const int side = bench.side(end, plane);
+            if (side != 0) return side == bench.side(other, plane);
         }
         return false;
     }
