@@ -356,6 +356,11 @@ std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, DisjointS
     for (std::uint32_t v = root; v < s.vertices.size(); ++v)
         if (s.vertices[v].kind == OutlineVertex::Kind::Corner && joined.root(v) == root)
             return is_open_at_corner(s.vertices[v], other, exact_);
+    // None is left of them. Another vertex may be clear of the other solid's boundary.
+    for (std::uint32_t v = root + 1; v < s.vertices.size(); ++v)
+        if (joined.root(v) == root)
+            if (const auto open = is_open_at(s.vertices[v].at, other, segments_, 1 - solid))
+                return open;
     return std::nullopt;
 }
 

@@ -23,6 +23,7 @@ namespace trisect::detail {
 
 void CommonSegments::start(const OutlinedSolid& first, const OutlinedSolid& second) {
     solids_ = {&first, &second};
+    sides_.clear();
     for (std::size_t i = 0; i < 2; ++i) {
         planes_[i].resize(solids_[i]->facets.size());
         for (FilteredPlane& p : planes_[i]) p.bound = -1;
@@ -82,13 +83,22 @@ void CommonSegments::set_way() {
     way_ = sign;
 }
 
-// Of the plane of the facet of the other solid.
-int CommonSegments::side(std::size_t solid, std::uint32_t vertex,
-                         const FilteredPlane& plane) const {
+// Of the plane of the facet of the other solid. All facets around a vertex cross that facet, so
+// that it is wanted several times.
+int CommonSegments::side(std::size_t solid, std::uint32_t vertex, const FilteredPlane& plane) {
     const OutlineVertex& v = solids_[solid]->vertices[vertex];
-    const int side = plane.sign(v.at);
-    return side != 0 ? side
-                     : exact_.side(v, crossing_->facets[solid], crossing_->facets[1 - solid]);
+    if (const int side = plane.sign(v.at); side != 0) return side;
+    const std::uint32_t facet = crossing_->facets[1 - solid];
+    const Key128 key{std::uint64_t{solid} << 32 | vertex, facet};
+    constexpr std::int32_t by_moves = 4;
+    std::int32_t known = sides_.find(key);
+    if (known < 0) {
+        const ShiftedPoints::Side side = exact_.side(v, facet);
+        known = side.sign + 1 + (side.by_moves ? by_moves : 0);
+        sides_.insert(key, known);
+    }
+    if (known >= by_moves) exact_.note_side(v, crossing_->facets[solid], facet);
+    return known % by_moves - 1;
 }
 
 // To the left of the crossing is what lies below the second facet for the first one, and above the

@@ -11,6 +11,7 @@
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
@@ -56,8 +57,7 @@ private:
         Approximation at;
     };
     void set_way();
-    [[nodiscard]] int side(std::size_t solid, std::uint32_t vertex,
-                           const FilteredPlane& plane) const;
+    [[nodiscard]] int side(std::size_t solid, std::uint32_t vertex, const FilteredPlane& plane);
     void note_short_segments() const;
     [[nodiscard]] bool list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
                                      const FilteredPlane& other);
@@ -77,6 +77,7 @@ private:
     const ShiftedPoints& exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
     std::array<std::vector<FilteredPlane>, 2> planes_;  // by place, where they were asked for
+    FlatMap sides_;  // of vertices that doubles leave open, and whether moves decided them
     std::vector<CommonSegment> segments_;
     // Of one crossing:
     const FacetCrossing* crossing_ = nullptr;

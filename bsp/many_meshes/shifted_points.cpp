@@ -398,16 +398,12 @@ void ShiftedPoints::note_side(const OutlineVertex& vertex, std::uint32_t own,
     if (vertex.kind == OutlineVertex::Kind::Meeting) note({vertex.facets[2]});
 }
 
-int ShiftedPoints::side(const OutlineVertex& vertex, std::uint32_t own, std::uint32_t facet) const {
-    if (const int side = side_of_plane(vertex, facet); side != 0) {
-        note_side(vertex, own, facet);
-        return side;
-    }
+ShiftedPoints::Side ShiftedPoints::side(const OutlineVertex& vertex, std::uint32_t facet) const {
+    if (const int side = side_of_plane(vertex, facet); side != 0) return {side, true};
     return with_numbers(meshes_, is_whole(meshes_, vertex) && are_whole(meshes_, {facet}),
-                        [&](auto& sides) {
+                        [&](auto& sides) -> Side {
                             const int side = sides.side_of(vertex, sides.plane(facet));
-                            if (sides.needed_moves()) note_side(vertex, own, facet);
-                            return side;
+                            return {side, sides.needed_moves()};
                         });
 }
 

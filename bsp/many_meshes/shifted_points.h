@@ -23,9 +23,14 @@ public:
     ShiftedPoints(const ManyMeshes& meshes, SpecialPosition& special)
         : meshes_(meshes), special_(special) {}
 
-    /// Below or above a facet of another operand; the vertex is one of a part of `own`.
-    [[nodiscard]] int side(const OutlineVertex& vertex, std::uint32_t own,
-                           std::uint32_t facet) const;
+    struct Side {
+        int sign = 0;
+        bool by_moves = false;  ///< the vertex is in the plane otherwise
+    };
+    /// Below or above a facet of another operand. Nothing is noted.
+    [[nodiscard]] Side side(const OutlineVertex& vertex, std::uint32_t facet) const;
+    /// Notes a facet with a vertex of a part of `own` in its plane.
+    void note_side(const OutlineVertex& vertex, std::uint32_t own, std::uint32_t facet) const;
     /// Notes two facets that have a segment in common that may have no length.
     void note_short(const FacetCrossing& crossing) const {
         note({crossing.facets[0], crossing.facets[1]});
@@ -60,12 +65,11 @@ public:
                                       const std::array<std::size_t, 2>& axes) const;
     /// The sign of a facet's normal along an axis.
     [[nodiscard]] int slope(std::uint32_t facet, std::size_t axis) const;
-    /// side() of a corner; nothing is noted.
+    /// side() of a corner.
     [[nodiscard]] int side_of_corner(const OutlineVertex& corner, std::uint32_t facet) const;
 
 private:
     void note(std::initializer_list<std::uint32_t> facets) const;
-    void note_side(const OutlineVertex& vertex, std::uint32_t own, std::uint32_t facet) const;
     [[nodiscard]] int side_of_plane(const OutlineVertex& vertex, std::uint32_t facet) const;
 
     const ManyMeshes& meshes_;
