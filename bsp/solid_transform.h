@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include <trisect/brep/exact_mesh.h>
+#include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/kernel/lattice.h>
@@ -32,6 +34,11 @@ namespace trisect {
 /// By a matrix of doubles, as they are. \throw UsageError for a singular map, and as above
 [[nodiscard]] Solid transformed(const Solid& solid, const AffineMap& map,
                                 LatticeReport* report = nullptr);
+
+/// The boundary of a bounded solid under a map: vertices are rounded to doubles one by one, once,
+/// from exact positions, which may make it meet itself. What transformed() makes a solid of, for
+/// all maps that round vertices. \throw UsageError for a singular map, LimitError as above
+[[nodiscard]] PolygonMesh transformed_mesh(const ExactMesh& mesh, const AffineMap& map);
 
 /// The connected parts, each with its cavities; parts that touch in points or edges are apart, and
 /// so are parts within the cavity of another one. Ordered by the smallest face of to_brep(). Costs

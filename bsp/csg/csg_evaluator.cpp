@@ -181,6 +181,14 @@ bool CsgEvaluator::is_single(std::uint32_t n) const {
     return used.empty() || (used.size() == 1 && is_single(used[0]));
 }
 
+/// What is below a matrix that turns, before that.
+Solid CsgEvaluator::turned_group(std::uint32_t n, const CsgFrame& frame) {
+    const CsgFrame straight{AffineMap(), frame.low, frame.high, frame.color};
+    const std::string key = csg_key(program_, n, straight, true);
+    const Solid* known = kept_.solid(key);
+    return known != nullptr ? *known : kept_.keep(key, solid_of(children_of(n, straight)));
+}
+
 Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const CsgFrame& frame) {
     const AffineMap map = compose(frame.map, own);
     if (map.orientation() == 0) {
@@ -189,12 +197,8 @@ Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const Csg
     }
     if (changes_axes(map) || is_single(n))
         return children_of(n, {map, frame.low, frame.high, frame.color});
-    const CsgFrame straight{AffineMap(), frame.low, frame.high, frame.color};
-    const std::string key = csg_key(program_, n, straight, true);
     return kept_formula(n, frame, [&]() -> Expression {
-        const Solid* known = kept_.solid(key);
-        const Solid group =
-            known != nullptr ? *known : kept_.keep(key, solid_of(children_of(n, straight)));
+        const Solid group = turned_group(n, frame);
         if (group.is_empty()) return group;
         if (auto flat = mapped_region(group, map)) return *std::move(flat);
         return transformed(group, map);

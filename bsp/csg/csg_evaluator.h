@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
@@ -49,6 +51,7 @@ private:
     [[nodiscard]] Expression difference(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression intersection(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression turned(std::uint32_t n, const AffineMap& own, const CsgFrame& frame);
+    [[nodiscard]] Solid turned_group(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] bool is_single(std::uint32_t n) const;
 
     // Shapes.
@@ -90,15 +93,23 @@ private:
     [[nodiscard]] std::vector<Solid> operands_of(std::uint32_t n);
     [[nodiscard]] Solid minkowski(std::uint32_t n);
     [[nodiscard]] Solid offset(std::uint32_t n);
+    [[nodiscard]] std::optional<PolygonMesh> turned_mesh(std::uint32_t n);
     [[nodiscard]] Solid projection(std::uint32_t n);
     [[nodiscard]] Expression resized(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] std::filesystem::path file_named(std::uint32_t n);
     [[nodiscard]] PolygonMesh file_of(std::uint32_t n);
 
+    // Many sections may be of one group.
+    struct TurnedMesh {
+        std::string key;
+        ExactMesh mesh;
+    };
+
     const CsgProgram& program_;
     const CsgOptions& options_;
     CsgReport& report_;
     CsgKept& kept_;
+    TurnedMesh last_turned_;
 };
 
 }  // namespace trisect::detail

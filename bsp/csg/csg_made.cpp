@@ -123,10 +123,34 @@ Solid CsgEvaluator::offset(std::uint32_t n) {
                             options);
 }
 
+/// Of one group that is turned the mesh will do: sections and shadows need no solid, which would be
+/// made free of what rounding made meet itself.
+std::optional<PolygonMesh> CsgEvaluator::turned_mesh(std::uint32_t n) {
+    AffineMap map;
+    while (true) {
+        const std::vector<std::uint32_t> used = program_.used_children(n);
+        if (used.size() != 1 || program_.dimension(used[0]) != 3) return std::nullopt;
+        n = used[0];
+        if (program_.kind(n) == CsgKind::Group) continue;
+        if (program_.kind(n) != CsgKind::Matrix || is_single(n)) return std::nullopt;
+        map = compose(map, csg_matrix(program_.arguments(n), false));
+        if (map.orientation() == 0) return std::nullopt;
+        if (!changes_axes(map)) break;
+    }
+    const Solid group = turned_group(n, CsgFrame());
+    if (group.is_empty()) return std::nullopt;
+    std::string key = csg_key(program_, n, CsgFrame(), true);
+    if (last_turned_.key != key) last_turned_ = {std::move(key), group.to_exact_mesh(1)};
+    return transformed_mesh(last_turned_.mesh, map);
+}
+
 Solid CsgEvaluator::projection(std::uint32_t n) {
+    const bool cut = program_.arguments(n).truth("cut", false);
+    if (const auto mesh = turned_mesh(n))
+        return cut ? section_of_mesh(*mesh, 0, options_.evaluate)
+                   : shadow_of_mesh(*mesh, options_.evaluate);
     const Solid solid = solid_of(any_of(program_.node(n).children, 3, CsgFrame()));
-    return program_.arguments(n).truth("cut", false)
-               ? solid_of_region(section(solid, 0, options_.evaluate))
+    return cut ? solid_of_region(section(solid, 0, options_.evaluate))
                : shadow(solid, options_.evaluate);
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <trisect/bsp/modelling/projection.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <utility>
 
+#include <trisect/brep/measure.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/flat_prism.h>
+#include <trisect/bsp/modelling/mesh_section.h>
 #include <trisect/bsp/modelling/plane_triangles.h>
-#include <trisect/bsp/solid_measure.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect {
 namespace {
@@ -20,50 +23,52 @@ bool looks_down(const Point3d& a, const Point3d& b, const Point3d& c) {
     return turn < -1e-12 * size;
 }
 
-Solid up_to(double height) { return Solid::half_space({0, 0, 1, -height}); }
-
-/// A power of two, so that heights beside a short number are short; large enough for them to
-/// differ.
-double slab_thickness(const Solid& solid, double height) {
-    const std::optional<Bounds> box = bounds(solid);
-    const double size = box ? box->hi[2] - box->lo[2] : 1;
-    return std::exp2(std::ceil(std::log2(std::max(size * 0x1p-10, std::fabs(height) * 0x1p-40))));
+/// \throw UnsupportedError for an unbounded set
+ExactMesh bounded_mesh(const Solid& solid, const EvaluateOptions& options) {
+    const int far_out = detail::state_of(solid)->far_out;
+    ExactMesh mesh = solid.to_exact_mesh(options.threads);
+    // Half-spaces alone decide it only when they have been put together.
+    if (far_out == 1 || (far_out < 0 && (mesh.triangles.empty() ? solid.is_whole_space()
+                                                                : exact_volume(mesh).sign() < 0)))
+        throw UnsupportedError("an unbounded set has no section");
+    return mesh;
 }
 
-/// By rounded corners: those at the height are at it when rounded, too.
-bool may_have_face_at(const PolygonMesh& mesh, double height) {
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const auto corners = mesh.face(f);
-        if (std::all_of(corners.begin(), corners.end(),
-                        [&](std::uint32_t v) { return mesh.points[v][2] == height; }))
-            return true;
-    }
-    return false;
+/// Where the winding number of the sides is as the rule has it.
+Expression region_within(detail::SectionSides found, const EvaluateOptions& options) {
+    if (found.sides.empty()) return Solid();
+    const Expression positive = flat_prism(found.corners, found.sides, 0, 1);
+    if (options.winding == EvaluateOptions::Winding::Positive) return positive;
+    for (auto& [from, to] : found.sides) std::swap(from, to);
+    return positive | flat_prism(found.corners, found.sides, 0, 1);
+}
+
+/// Both sides have the same faces in the plane, if no face of the solid itself is there.
+Solid region_at(const detail::MeshSection& mesh, const EvaluateOptions& options) {
+    using Place = detail::MeshSection::Place;
+    const Expression below = region_within(mesh.right(Place::Below), options);
+    if (!mesh.has_face_in_plane()) return evaluate(below, options);
+    return evaluate(below | region_within(mesh.right(Place::Above), options), options);
 }
 
 }  // namespace
 
-// A section is what the faces look like that a cut at this height makes. Faces of the solid itself
-// in that plane belong to the half that lies on their other side. What is farther away than a thin
-// slab does not matter, and would be assembled for nothing.
 PlaneRegion section(const Solid& solid, double height, const EvaluateOptions& options) {
-    const Solid below = up_to(height);
-    const double thickness = slab_thickness(solid, height);
-    const Solid low = evaluate((solid & below) - up_to(height - thickness), options);
-    const PlaneRegion lower = region_of_result_faces(low, height, FacesLook::Up);
-    // Both sides have the same faces there, if no face of the solid itself is.
-    if (!may_have_face_at(solid.to_mesh(options.threads), height))
-        return region_of_faces(solid_of_region(lower), 1);
-    const Solid high = evaluate((solid & up_to(height + thickness)) - below, options);
-    const PlaneRegion upper = region_of_result_faces(high, height, FacesLook::Down);
-    const Solid both = evaluate(solid_of_region(lower) | solid_of_region(upper), options);
-    return region_of_faces(both, 1);
+    const ExactMesh mesh = bounded_mesh(solid, options);
+    return region_of_faces(region_at(detail::MeshSection(mesh, height), options), 1);
+}
+
+Solid section_of_mesh(const PolygonMesh& mesh, double height, const EvaluateOptions& options) {
+    return region_at(detail::MeshSection(mesh, height), options);
 }
 
 // What looks down covers nothing that the triangles that look up do not. Walls are below their
 // outline alone, the silhouette.
 Solid shadow(const Solid& solid, const EvaluateOptions& options) {
-    const PolygonMesh mesh = solid.to_mesh(options.threads);
+    return shadow_of_mesh(solid.to_mesh(options.threads), options);
+}
+
+Solid shadow_of_mesh(const PolygonMesh& mesh, const EvaluateOptions& options) {
     detail::PlaneTriangles seen;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto t = mesh.face(f);

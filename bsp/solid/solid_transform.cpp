@@ -23,6 +23,7 @@
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
+#include <trisect/bsp/solid/moved_points.h>
 #include <trisect/bsp/solid/moved_tree.h>
 #include <trisect/bsp/solid/uncut_root.h>
 #include <trisect/kernel/error.h>
@@ -33,6 +34,7 @@ namespace trisect {
 namespace {
 
 using detail::LatticeMove;
+using detail::MovedPoints;
 using detail::SolidState;
 using StatePtr = std::shared_ptr<const SolidState>;
 
@@ -180,44 +182,10 @@ std::optional<StatePtr> moved(StatePtr state, LatticeMove move, const Pose& pose
     return out;
 }
 
-// Points under a pose.
-class PointMover {
-public:
-    PointMover(const Pose& pose, Lattice lattice) : lattice_(lattice) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t j = 0; j < 3; ++j) m_[i][j] = detail::to_integer(pose.matrix(i, j));
-            t_[i] = detail::to_integer(pose.translation(i));
-        }
-        s_ = detail::to_integer(pose.denominator());
-    }
-    /// In the user's units.
-    [[nodiscard]] std::array<mpq_class, 3> moved(const Point& point) const {
-        const detail::Corner p = detail::corner_at(point);
-        const Lattice to_units{-lattice_.exponent};
-        std::array<mpq_class, 3> out;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const mpz_class sum = m_[i][0] * p.x[0] + m_[i][1] * p.x[1] + m_[i][2] * p.x[2];
-            out[i] =
-                in_units(detail::fraction(sum, p.w * s_), to_units) + detail::fraction(t_[i], s_);
-        }
-        return out;
-    }
-
-private:
-    Lattice lattice_;
-    std::array<std::array<mpz_class, 3>, 3> m_;
-    std::array<mpz_class, 3> t_;
-    mpz_class s_;
-};
-
-using ExactPoints = std::vector<std::array<mpq_class, 3>>;
-
-double nearest_double(const mpq_class& v) {
-    return detail::to_rational(v.get_num(), v.get_den()).to_double();
-}
-
-Point3d to_doubles(const std::array<mpq_class, 3>& p) {
-    return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+void check_finite(const Point3d& p) {
+    for (const double c : p)
+        if (!std::isfinite(c))
+            throw LimitError("a transformed coordinate is beyond the largest double");
 }
 
 bool has_area(const Point3d& a, const Point3d& b, const Point3d& c) {
@@ -232,36 +200,39 @@ bool has_area(const Point3d& a, const Point3d& b, const Point3d& c) {
 }
 
 // The nearest doubles, and how far they are from the exact points.
-std::vector<Point3d> rounded_points(const ExactPoints& exact, LatticeReport& report) {
+std::vector<Point3d> rounded_points(const ExactMesh& mesh, const MovedPoints& mover,
+                                    LatticeReport& report) {
     std::vector<Point3d> points;
-    points.reserve(exact.size());
+    points.reserve(mesh.points.size());
     mpq_class largest = 0;
-    for (const auto& p : exact) {
-        const Point3d& q = points.emplace_back(to_doubles(p));
+    for (const Point& point : mesh.points) {
+        const MovedPoints::Exact p = mover.exact(point);
+        const Point3d& q = points.emplace_back(detail::to_doubles(p));
+        check_finite(q);
         mpq_class move = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (!std::isfinite(q[i]))
-                throw LimitError("a transformed coordinate is beyond the largest double");
+        for (std::size_t i = 0; i < 3; ++i)
             move = std::max(move, mpq_class(abs(p[i] - mpq_class(q[i]))));
-        }
         if (move != 0) ++report.moved;
         largest = std::max(largest, move);
     }
-    report.max_move = nearest_double(largest);
+    report.max_move = detail::to_doubles({largest, 0, 0})[0];
     report.lossless = report.moved == 0;
     return points;
 }
 
 PolygonMesh rounded_mesh(const ExactMesh& mesh, const Pose& pose, bool turn_over,
-                         LatticeReport& report) {
-    const PointMover mover(pose, mesh.lattice);
-    ExactPoints exact;
-    exact.reserve(mesh.points.size());
-    for (const Point& p : mesh.points) exact.push_back(mover.moved(p));
+                         LatticeReport* report) {
+    const MovedPoints mover(pose, mesh.lattice);
     PolygonMesh out;
-    out.points = rounded_points(exact, report);
+    if (report != nullptr) {
+        out.points = rounded_points(mesh, mover, *report);
+    } else {
+        out.points.reserve(mesh.points.size());
+        for (const Point& p : mesh.points) check_finite(out.points.emplace_back(mover.nearest(p)));
+    }
     for (const auto& t : mesh.triangles) {
-        if (!has_area(out.points[t[0]], out.points[t[1]], out.points[t[2]])) ++report.flipped_faces;
+        if (report != nullptr && !has_area(out.points[t[0]], out.points[t[1]], out.points[t[2]]))
+            ++report->flipped_faces;
         out.add_triangle(t[0], t[turn_over ? 2 : 1], t[turn_over ? 1 : 2]);
     }
     return out;
@@ -298,7 +269,7 @@ StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
     return state;
 }
 
-StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
+StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
     const SolidState& state = *detail::state_of(solid);
     const bool is_complement = state.far_out == 1;
     const ExactMesh mesh = solid.to_exact_mesh();
@@ -306,12 +277,14 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport& report) {
         throw UnsupportedError("an unbounded set of half-spaces cannot be moved off the lattice");
     const bool turn_over = pose.is_mirror() != is_complement;
     ImportedMesh imported = import_mesh(rounded_mesh(mesh, pose, turn_over, report));
-    const LatticeReport& import = imported.report.lattice;
-    report.lattice = import.lattice;
-    if (!import.lossless) {  // more than 126 bits
-        report.lossless = false;
-        report.moved = std::max(report.moved, import.moved);
-        report.max_move += import.max_move;
+    if (report != nullptr) {
+        const LatticeReport& import = imported.report.lattice;
+        report->lattice = import.lattice;
+        if (!import.lossless) {  // more than 126 bits
+            report->lossless = false;
+            report->moved = std::max(report->moved, import.moved);
+            report->max_move += import.max_move;
+        }
     }
     if (imported.mesh.triangles.empty())
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
@@ -345,7 +318,8 @@ Solid transformed(const Solid& solid, const Pose& pose, LatticeReport* report) {
         } else if (permutation) {
             there = moved(state, *permutation, pose, made);
         }
-        out = detail::solid_of(there ? *there : rounded(solid, pose, made));
+        out = detail::solid_of(there ? *there
+                                     : rounded(solid, pose, report == nullptr ? nullptr : &made));
     }
     if (report != nullptr) *report = made;
     return out;
@@ -355,6 +329,13 @@ Solid transformed(const Solid& solid, const AffineMap& map, LatticeReport* repor
     std::array<double, 12> rows{};
     for (std::size_t i = 0; i < 12; ++i) rows[i] = map.rows[i / 4][i % 4];
     return transformed(solid, Pose::from_doubles(rows), report);
+}
+
+PolygonMesh transformed_mesh(const ExactMesh& mesh, const AffineMap& map) {
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 12; ++i) rows[i] = map.rows[i / 4][i % 4];
+    const Pose pose = Pose::from_doubles(rows);
+    return rounded_mesh(mesh, pose, pose.is_mirror(), nullptr);
 }
 
 }  // namespace trisect
