@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Three tests, cheapest first: a line through an edge that separates the triangles in a projection
+// Four tests, cheapest first: a line through an edge that separates the triangles in a projection
 // (the caps of machined parts are fans of needles whose boxes all overlap); the corners of one
 // triangle on one side of the other's plane; and the intervals in which the planes' common line
 // passes through the triangles, seen along an axis. An end of an interval is a quotient of numbers
-// with proved errors; none is divided.
+// with proved errors; none is divided. Last, a plane between them is searched for, which triangles
+// of one rounded face have.
 
 #include <trisect/brep/contact/contact_filter.h>
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
+#include <trisect/brep/contact/embedding_counters.h>
+#include <trisect/brep/contact/separating_plane.h>
 #include <trisect/kernel/number/ball.h>
 #include <trisect/kernel/number/ball_determinant.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -199,15 +203,29 @@ bool are_apart_on_line(const FilteredHalf& a, const FilteredHalf& b, int shared)
 
 bool are_plainly_apart(std::span<const LatticePoint> points, const Triangle& a, const Triangle& b,
                        int shared) {
-    if (shared < 2 && ProjectedFilter(points, a, b).is_apart()) return true;
+    EmbeddingCounters& counters = embedding_counters();
+    const auto decided = [](std::uint64_t& count) {
+        ++count;
+        return true;
+    };
+    if (shared < 2 && ProjectedFilter(points, a, b).is_apart()) return decided(counters.edge_lines);
     FilteredHalf x(points, a, b);
     FilteredHalf y(points, b, a);
     y.measure(x);
-    if (y.is_one_sided()) return true;
-    if (shared == 2) return false;
+    if (y.is_one_sided()) return decided(counters.own_planes);
+    if (shared == 2) {
+        // Nearly in one plane the shared edge is between them.
+        if (ProjectedFilter(points, a, b).is_apart()) return decided(counters.edge_lines);
+        ++counters.exact_pairs;
+        return false;
+    }
     x.measure(y);
-    if (x.is_one_sided()) return true;
-    return x.is_clear() && y.is_clear() && are_apart_on_line(x, y, shared);
+    if (x.is_one_sided()) return decided(counters.own_planes);
+    if (x.is_clear() && y.is_clear() && are_apart_on_line(x, y, shared))
+        return decided(counters.intervals);
+    if (have_plane_between(points, a, b)) return decided(counters.other_planes);
+    ++counters.exact_pairs;
+    return false;
 }
 
 }  // namespace trisect::detail

@@ -9,6 +9,7 @@
 #include <array>
 #include <optional>
 
+#include <trisect/brep/contact/embedding_counters.h>
 #include <trisect/brep/validate/manifold_mesh.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/kernel/error.h>
@@ -44,7 +45,14 @@ bool is_valid(const LatticeMesh& mesh) {
 std::optional<bool> is_embedded_manifold(const LatticeMesh& mesh) {
     const auto manifold = detail::ManifoldMesh::of(mesh.points, mesh.triangles);
     if (!manifold) return std::nullopt;
-    if (manifold->is_starlike() || manifold->is_height_field()) return true;
+    if (manifold->is_starlike()) {
+        ++detail::embedding_counters().starlike;
+        return true;
+    }
+    if (manifold->is_height_field()) {
+        ++detail::embedding_counters().height_fields;
+        return true;
+    }
     const std::optional<bool> nested = manifold->are_shells_nested();
     if (!nested || !*nested) return nested;
     return manifold->has_no_contact();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include <trisect/brep/contact/embedding_counters.h>
 #include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/validate/sheet_grid.h>
@@ -60,7 +61,11 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
 }
 
 std::optional<bool> ManifoldMesh::has_no_contact() const {
-    if (is_convex()) return true;
+    if (is_convex()) {
+        ++embedding_counters().convex;
+        return true;
+    }
+    ++embedding_counters().compared;
     const auto sheets = find_sheets(points_, triangles_, twins_);
     if (!sheets) return std::nullopt;
     end_step();

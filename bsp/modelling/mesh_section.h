@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// MeshSection: where triangles of a mesh meet a horizontal plane.
+// MeshSection: sections of a mesh with horizontal planes.
 #pragma once
 
 #include <array>

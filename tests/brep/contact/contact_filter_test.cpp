@@ -4,6 +4,7 @@
 // rationals.
 
 #include <trisect/brep/contact/contact_filter.h>
+#include <trisect/brep/contact/embedding_counters.h>
 
 #include <algorithm>
 #include <array>
@@ -60,6 +61,7 @@ void compare(const std::vector<LatticePoint>& points, int shared, int& apart, in
 }
 
 TEST(ContactFilter, AgreesWithRationals) {
+    const trisect::Diagnostics<trisect::detail::EmbeddingCounters> diagnostics;
     std::mt19937 random(20261129);
     int apart = 0;
     int meeting = 0;
@@ -77,6 +79,47 @@ TEST(ContactFilter, AgreesWithRationals) {
     }
     EXPECT_GT(apart, 8000);
     EXPECT_GT(meeting, 5000);
+    const auto counts = diagnostics.counters();
+    EXPECT_EQ(counts.exact_pairs, static_cast<std::uint64_t>(meeting));
+    EXPECT_EQ(counts.edge_lines + counts.own_planes + counts.intervals + counts.other_planes,
+              static_cast<std::uint64_t>(apart));
+    for (const std::uint64_t n :
+         {counts.edge_lines, counts.own_planes, counts.intervals, counts.other_planes})
+        EXPECT_GT(n, 100U);
+}
+
+// Triangles of a body that was turned and rounded. Of two faces that meet in a line each has an
+// edge on it, one after the other; or all is one face, in which both go out from a corner.
+TEST(ContactFilter, KeepsApartWhatLaysOnOneLine) {
+    std::mt19937 random(20261130);
+    int apart = 0;
+    int meeting = 0;
+    const trisect::Diagnostics<trisect::detail::EmbeddingCounters> diagnostics;
+    for (int round = 0; round < 20000; ++round) {
+        const int shared = round % 2;
+        const std::array<double, 3> along{0.816497, -0.3, -0.57735};
+        const std::array<double, 3> across{0.408248, 0.707107, 0.57735};
+        const std::array<double, 3> upwards{0.2, -0.5, 0.6};
+        std::vector<LatticePoint> points;
+        for (int i = 0; i < 6; ++i) {
+            const bool is_free = i % 3 == 2;
+            const bool is_right = i >= 3;
+            const double u = is_free
+                                 ? 0.1 * static_cast<double>(random() % 24)
+                                 : 0.1 * static_cast<double>(random() % 11 + (is_right ? 13 : 0));
+            double v = is_free ? 0.1 * static_cast<double>(1 + random() % 24) : 0;
+            if (shared == 1 && is_right) v = -v;
+            const auto& aside = shared == 0 && is_right ? upwards : across;
+            const double begin = shared == 1 && i == 0 ? 1.2 : u;
+            const auto at = [&](std::size_t k) {
+                return Coordinate(0x1p10 * (begin * along[k] + v * aside[k]));
+            };
+            points.push_back({at(0), at(1), at(2)});
+        }
+        compare(points, shared, apart, meeting);
+    }
+    EXPECT_GT(apart, 15000);
+    EXPECT_GT(diagnostics.counters().other_planes, 2000U);
 }
 
 }  // namespace

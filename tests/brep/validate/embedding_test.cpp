@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/contact/embedding_counters.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
@@ -40,6 +41,22 @@ TEST(Embedding, WhatMeetsItself) {
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 0, 0}, {2, 1, 1})))) << "flush";
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 0.25, 0.25}, {2, 0.5, 0.5}))))
         << "on a face";
+}
+
+TEST(Embedding, CountsWhatDecided) {
+    const auto counts = [](const PolygonMesh& mesh) {
+        const trisect::Diagnostics<trisect::detail::EmbeddingCounters> diagnostics;
+        EXPECT_TRUE(embedded(mesh));
+        return diagnostics.counters();
+    };
+    const auto of_ball = counts(trisect::make_icosphere(1, 3));
+    EXPECT_EQ(of_ball.starlike, 1U);
+    EXPECT_EQ(of_ball.compared, 0U);
+    const auto of_ring = counts(trisect::make_torus(3, 1, 12, 8));
+    EXPECT_EQ(of_ring.starlike + of_ring.height_fields + of_ring.convex, 0U);
+    EXPECT_EQ(of_ring.compared, 1U);
+    EXPECT_GT(of_ring.edge_lines + of_ring.own_planes, 0U);
+    EXPECT_EQ(of_ring.exact_pairs, 0U);
 }
 
 // Winding numbers of 2 and of -1.

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/contact/embedding_counters.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/torus.h>
@@ -70,11 +71,15 @@ TEST(HeightField, OfBoxesAndCliffs) {
     EXPECT_TRUE(is_height_field(trisect::make_box({1, 2, 3})));
     EXPECT_FALSE(is_height_field(trisect::make_torus(3, 1)));
     std::mt19937 random(20261129);
+    const trisect::Diagnostics<trisect::detail::EmbeddingCounters> diagnostics;
     for (int round = 0; round < 20; ++round) {
         const PolygonMesh mesh = field(7, [&] { return random() % 2 == 0 ? 1.0 : 1000.0; });
+        EXPECT_TRUE(trisect::is_embedded(trisect::import_mesh(mesh).mesh));
         EXPECT_TRUE(is_height_field(mesh)) << round;
         EXPECT_TRUE(trisect::validate(trisect::import_mesh(mesh).mesh).is_solid()) << round;
     }
+    EXPECT_EQ(diagnostics.counters().height_fields, 20U);
+    EXPECT_EQ(diagnostics.counters().compared, 0U);
 }
 
 TEST(HeightField, InsideOutUpsideDownAndTwoOfThemAreNone) {
