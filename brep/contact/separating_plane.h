@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Planes between two triangles, whatever their directions.
+// Planes between two triangles.
 #pragma once
 
 #include <array>
