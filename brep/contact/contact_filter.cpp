@@ -14,10 +14,10 @@
 #include <cstdint>
 
 #include <trisect/brep/contact/embedding_counters.h>
-#include <trisect/brep/contact/separating_plane.h>
 #include <trisect/kernel/number/ball.h>
 #include <trisect/kernel/number/ball_determinant.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/separating_plane.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
@@ -102,6 +102,11 @@ public:
     [[nodiscard]] const Vector3& corner(std::size_t i) const { return p_[i]; }
     [[nodiscard]] const Vector3& shared_corner() const {
         return p_[is_shared_[0] ? 0 : is_shared_[1] ? 1 : 2];
+    }
+    /// \pre one corner is shared
+    [[nodiscard]] std::array<Vector3, 2> own_corners() const {
+        const std::size_t i = is_shared_[0] ? 0 : is_shared_[1] ? 1 : 2;
+        return {p_[(i + 1) % 3], p_[(i + 2) % 3]};
     }
     void measure(const FilteredHalf& other) {
         const Vector3 a = minus(other.p_[1], other.p_[0]);
@@ -199,6 +204,12 @@ bool are_apart_on_line(const FilteredHalf& a, const FilteredHalf& b, int shared)
            order(of_a[1], of_b[1]) == first;
 }
 
+bool is_plane_between(const FilteredHalf& a, const FilteredHalf& b, int shared) {
+    if (shared == 1) return have_plane_between(a.shared_corner(), a.own_corners(), b.own_corners());
+    return have_plane_between({a.corner(0), a.corner(1), a.corner(2)},
+                              {b.corner(0), b.corner(1), b.corner(2)});
+}
+
 }  // namespace
 
 bool are_plainly_apart(std::span<const LatticePoint> points, const Triangle& a, const Triangle& b,
@@ -223,7 +234,7 @@ bool are_plainly_apart(std::span<const LatticePoint> points, const Triangle& a, 
     if (x.is_one_sided()) return decided(counters.own_planes);
     if (x.is_clear() && y.is_clear() && are_apart_on_line(x, y, shared))
         return decided(counters.intervals);
-    if (have_plane_between(points, a, b)) return decided(counters.other_planes);
+    if (is_plane_between(x, y, shared)) return decided(counters.other_planes);
     ++counters.exact_pairs;
     return false;
 }

@@ -14,6 +14,7 @@
 #include <trisect/bsp/cells/trace/trace.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/split_piece.h>
+#include <trisect/kernel/number/separating_plane.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/triangle_pair.h>
 
@@ -307,6 +308,28 @@ bool LeafPairs::separates(LeafWork& work, std::size_t i, std::size_t j) {
     return (above || below) && shared < 3;
 }
 
+// Whether some other plane does, as of triangles of one face that was turned and rounded. Those of
+// different meshes that come here mostly touch.
+bool LeafPairs::are_apart_otherwise(std::size_t i, std::size_t j) const {
+    const Facet& f = facets_[i];
+    const Facet& g = facets_[j];
+    if (f.surface != g.surface) return false;
+    std::size_t shared = 0;
+    std::array<std::size_t, 2> at{};  // of one shared corner
+    for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t b = 0; b < 3; ++b)
+            if (f.vertices[a] == g.vertices[b]) {
+                ++shared;
+                at = {a, b};
+            }
+    if (shared == 0) return have_plane_between(f.corners, g.corners);
+    if (shared != 1) return false;
+    const auto others = [](const Facet& t, std::size_t c) {
+        return std::array<Vector3, 2>{t.corners[(c + 1) % 3], t.corners[(c + 2) % 3]};
+    };
+    return have_plane_between(f.corners[at[0]], others(f, at[0]), others(g, at[1]));
+}
+
 void LeafPairs::sweep(LeafWork& work) {
     std::uint64_t separated = 0;
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -320,7 +343,7 @@ void LeafPairs::sweep(LeafWork& work) {
                 continue;
             ++work.stats->pairs_boxes;
             if (facets_[i].surface >= 0 && facets_[j].surface >= 0 &&
-                (separates(work, i, j) || separates(work, j, i))) {
+                (separates(work, i, j) || separates(work, j, i) || are_apart_otherwise(i, j))) {
                 ++separated;
                 continue;
             }

@@ -47,6 +47,7 @@ private:
     void list_facets(const LeafWork& work);
     void make_plane(LeafWork& work, std::size_t i);
     [[nodiscard]] bool separates(LeafWork& work, std::size_t i, std::size_t j);
+    [[nodiscard]] bool are_apart_otherwise(std::size_t i, std::size_t j) const;
     void relate(LeafWork& work, LeafIndex s, LeafIndex t);
 
     std::vector<Box> operand_boxes_;

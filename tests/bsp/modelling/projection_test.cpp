@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <random>
 
 #include "support/solids.h"
 
@@ -66,6 +68,63 @@ TEST(Projection, FacesInThePlaneCountOnBothSides) {
     EXPECT_EQ(area_at(steps, 0), 6);
     EXPECT_EQ(area_at(steps, 1), 4);
     EXPECT_EQ(area_at(steps, -1), 4);
+}
+
+/// By the faces that two cuts make.
+Solid section_by_cuts(const Solid& solid, double height) {
+    const Solid below = Solid::half_space({0, 0, 1, -height});
+    const Solid low = evaluate(solid & below);
+    const Solid high = evaluate(solid - below);
+    const auto faces = [&](const Solid& half, FacesLook look) {
+        return half.is_empty() ? Solid()
+                               : solid_of_region(region_of_result_faces(half, height, look));
+    };
+    return evaluate(faces(low, FacesLook::Up) | faces(high, FacesLook::Down));
+}
+
+// Of cuts, a corner on a straight side remains where another face ends in it, and is rounded.
+void expect_same_section(const Solid& solid, double height, bool has_rounded_corners) {
+    const Solid one = solid_of_region(section(solid, height));
+    const Solid other = section_by_cuts(solid, height);
+    const Solid difference = evaluate(one ^ other);
+    if (has_rounded_corners && height == std::floor(height)) {
+        EXPECT_LT(volume(difference), 1e-13) << height;
+        return;
+    }
+    EXPECT_TRUE(difference.is_empty()) << height;
+    EXPECT_EQ(one.to_mesh().face_count(), other.to_mesh().face_count()) << height;
+}
+
+// Faces, edges and corners in the plane, and nothing there; corners that are no doubles.
+TEST(Projection, SectionsAreThoseOfCuts) {
+    std::mt19937 random(20261129);
+    const auto number = [&](std::uint32_t n) { return static_cast<double>(random() % n); };
+    const AffineMap turn{{{{0.36, 0.48, -0.8, 0}, {-0.8, 0.6, 0, 0}, {0.48, 0.64, 0.6, 0}}}};
+    for (int round = 0; round < 30; ++round) {
+        const auto block = [&] {
+            const Point3d low{number(4), number(4), number(4)};
+            return box(low,
+                       {low[0] + 1 + number(3), low[1] + 1 + number(3), low[2] + 1 + number(3)});
+        };
+        const Solid ball = Solid::from_mesh(
+            transformed(make_icosphere(2.5, 1), AffineMap::translation({2, 2, 2})));
+        Solid solid = evaluate((block() | block() | block()) - (round % 2 == 0 ? block() : ball));
+        if (solid.is_empty()) continue;
+        for (const double height : {0.0, 1.0, 2.0, 2.5, 3.1, 4.0})
+            expect_same_section(solid, height, round % 2 != 0);
+        if (round % 2 == 0) {
+            solid = transformed(solid, turn);
+            for (const double height : {0.0, 1.3})
+                EXPECT_NEAR(area_at(solid, height), volume(section_by_cuts(solid, height)), 1e-12);
+            EXPECT_EQ(area_at(solid, 1.3), volume(section_of_mesh(solid.to_mesh(), 1.3)));
+        }
+    }
+}
+
+TEST(Projection, SectionsOfUnboundedSetsAreRefused) {
+    EXPECT_THROW(static_cast<void>(section(evaluate(~box({0, 0, 0}, {1, 1, 1})), 3)),
+                 UnsupportedError);
+    EXPECT_THROW(static_cast<void>(section(Solid::half_space({0, 0, 1, 0}), -1)), UnsupportedError);
 }
 
 /// The union of the triangles' own prisms, one operand for each.
