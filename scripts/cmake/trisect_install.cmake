@@ -128,6 +128,7 @@ set(private_headers
     bsp/csg/csg_region.h
     bsp/csg/csg_shapes.h
     bsp/modelling/convex_pieces.h
+    bsp/modelling/mesh_section.h
     bsp/modelling/plane_sums.h
     bsp/modelling/plane_turn.h
     bsp/modelling/sum_hull.h
