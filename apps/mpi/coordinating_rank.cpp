@@ -33,6 +33,37 @@ constexpr double boxes_of_a_region = 2048;
 // A stopped run has no more: whoever stopped it may end it.
 constexpr double patience_of_a_stop = 0.5;
 
+// Seconds on the clock since the first rank began, and of the processor of this one.
+Json steps_json(const RankSteps& steps, double began) {
+    Json out = Json::array();
+    for (std::size_t i = 0; i < RankSteps::count; ++i) {
+        const RankSteps::Time& time = steps.times[i];
+        if (time.clock == 0) continue;
+        out.push_back({{"step", RankSteps::names[i]},
+                       {"clock", time.clock - began},
+                       {"processor", time.processor}});
+    }
+    return out;
+}
+
+// All in order; those of each rank are.
+std::vector<SampledBox> merged_samples(const std::vector<PartSurvey>& surveys) {
+    std::vector<SampledBox> out;
+    std::vector<std::ptrdiff_t> begins{0};
+    for (const PartSurvey& s : surveys) {
+        out.insert(out.end(), s.sample.begin(), s.sample.end());
+        begins.push_back(static_cast<std::ptrdiff_t>(out.size()));
+    }
+    const auto by_hash = [](const SampledBox& a, const SampledBox& b) { return a.hash < b.hash; };
+    for (std::size_t width = 1; width < surveys.size(); width *= 2)
+        for (std::size_t i = 0; i + width < surveys.size(); i += 2 * width) {
+            const std::size_t end = std::min(i + 2 * width, surveys.size());
+            std::inplace_merge(out.begin() + begins[i], out.begin() + begins[i + width],
+                               out.begin() + begins[end], by_hash);
+        }
+    return out;
+}
+
 FinishedPieces read_journals(const std::vector<std::string>& names, const std::string& key) {
     FinishedPieces out;
     for (const std::string& name : names) out.merge(read_clash_journal(name, key));
@@ -41,11 +72,12 @@ FinishedPieces read_journals(const std::vector<std::string>& names, const std::s
 
 }  // namespace
 
-CoordinatingRank::CoordinatingRank(Session& session, const RankClashOptions& options, bool& is_open)
+CoordinatingRank::CoordinatingRank(Session& session, const RankClashOptions& options,
+                                   const RankBegin& begin, bool& is_open)
     : session_(session),
       options_(options),
       is_open_(is_open),
-      station_(session, options, ranks_),
+      station_(session, options, begin, ranks_),
       all_(static_cast<std::size_t>(Ranks::count())),
       surveys_(all_.size()),
       surveys_left_(all_.size()) {}
@@ -172,13 +204,11 @@ void CoordinatingRank::divide() {
 
 // By a sample in an order that is the same on any number of ranks.
 RegionPlan CoordinatingRank::plan_regions() {
-    std::vector<SampledBox> sample;
     std::uint64_t boxes = 0;
     for (const PartSurvey& s : surveys_) {
         boxes += s.boxes;
-        sample.insert(sample.end(), s.sample.begin(), s.sample.end());
     }
-    std::ranges::sort(sample, {}, &SampledBox::hash);
+    const std::vector<SampledBox> sample = merged_samples(surveys_);
     std::vector<ClashBox> in_order;
     for (const SampledBox& s : sample) in_order.push_back(s.box);
     const auto all = static_cast<double>(boxes);
@@ -367,6 +397,7 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
     out.document["listed"] = coordinator_->listed();
     out.document["messages"] = ranks_.messages();
     out.document["message_bytes"] = ranks_.bytes();
+    const double began = all_.front().end.steps.times[RankSteps::Began].clock;
     out.document["ranks"] = Json::array();
     for (const Rank& rank : all_) {
         Json r;
@@ -378,6 +409,8 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
         r["idle_seconds"] = rank.end.idle;
         r["messages"] = rank.end.messages;
         r["message_bytes"] = rank.end.bytes;
+        r["boxes"] = rank.end.boxes;
+        r["steps"] = steps_json(rank.end.steps, began);
         out.document["ranks"].push_back(std::move(r));
     }
     out.document["seconds"] = session_.seconds();

@@ -22,7 +22,8 @@ namespace trisect::app {
 class CoordinatingRank {
 public:
     /// \param is_open set to false when no other rank waits any more
-    CoordinatingRank(Session& session, const RankClashOptions& options, bool& is_open);
+    CoordinatingRank(Session& session, const RankClashOptions& options, const RankBegin& begin,
+                     bool& is_open);
 
     /// \throw what ended the run
     [[nodiscard]] Outcome run();

@@ -27,6 +27,8 @@ constexpr std::size_t pieces_of_unknown_cost = 16;
 // more than this on average.
 constexpr std::size_t pieces_of_the_end = 4;
 constexpr double seconds_of_a_message = 0.003;
+// Which take about a millisecond to read.
+constexpr std::uint64_t bytes_of_a_short_file = std::uint64_t{32} << 10;
 
 std::uint64_t size_of(const std::string& file) {
     std::error_code error;
@@ -42,13 +44,15 @@ Coordinator::Coordinator(const ClashOptions& options, ClashManifest& manifest,
       manifest_(manifest),
       files_(manifest.files.size()),
       knows_file_(files_.size()),
+      file_bytes_(files_.size()),
       files_left_(files_.size()),
       left_(ranks),
       slices_(ranks) {
     take_over(done);
     std::vector<std::pair<std::uint64_t, std::uint64_t>> sizes;
     for (std::size_t i = 0; i < files_.size(); ++i)
-        if (!knows_file_[i]) sizes.emplace_back(size_of(manifest_.files[i]), i);
+        if (!knows_file_[i])
+            sizes.emplace_back(file_bytes_[i] = size_of(manifest_.files[i]), i);
     std::ranges::stable_sort(sizes, std::ranges::greater(), [](const auto& s) { return s.first; });
     for (const auto& [size, file] : sizes) file_order_.push_back(file);
 }
@@ -91,6 +95,9 @@ std::size_t Coordinator::pieces_of(std::size_t share) const {
 }
 
 std::size_t Coordinator::ahead() const {
+    if (!has_tiles_ && next_file_ < file_order_.size() &&
+        file_bytes_[file_order_[next_file_]] > bytes_of_a_short_file)
+        return 1;
     const std::size_t left = slices_left_ + not_ordered_;
     const bool are_long = seconds_ > seconds_of_a_message * static_cast<double>(costs_.size());
     return are_long && left < pieces_of_the_end * left_.size() ? 1 : 3;

@@ -59,8 +59,9 @@ public:
     /// All is done, or something failed that ends the run.
     [[nodiscard]] bool is_over() const { return failure_ || (has_tiles_ && tiles_left_ == 0); }
     [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
-    /// How many orders a rank has at a time. At the end one, where pieces take longer than a
-    /// message: a rank that has two would do both while another one waits.
+    /// How many orders a rank has at a time. One, where pieces take longer than a message and few
+    /// are left, as at the end, or differ, as files do: a rank that has two would do both while
+    /// another one waits.
     [[nodiscard]] std::size_t ahead() const;
 
     /// Of what was done until now, and what was not; once.
@@ -104,6 +105,7 @@ private:
     ClashManifest& manifest_;
     std::vector<ClashFile> files_;
     std::vector<bool> knows_file_;
+    std::vector<std::uint64_t> file_bytes_;
     std::vector<std::uint64_t> file_order_;  // those that are to be read, the largest first
     std::size_t next_file_ = 0;
     std::size_t files_left_ = 0;

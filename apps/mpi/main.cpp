@@ -3,6 +3,7 @@
 // trisect-mpi: sub-commands of trisect on many processes. The first speaks for all.
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -66,8 +67,11 @@ void keep_signals() {
 int main(int argc, char** argv) {
     end_with_parent();
     keep_signals();
-    trisect::app::begin_mpi(argc, argv);
-    const bool is_first = trisect::app::Ranks::rank() == 0;
+    // Clashes are looked for before MPI is needed.
+    const auto place = trisect::app::place_before_mpi();
+    const bool is_clash = std::find(argv, argv + argc, std::string_view("clash")) != argv + argc;
+    if (!place || !is_clash) trisect::app::begin_mpi();
+    const bool is_first = (place ? place->rank : trisect::app::Ranks::rank()) == 0;
     std::vector<std::string> arguments = arguments_of(argc, argv, is_first);
     if (!is_first) be_silent();
     std::vector<char*> pointers;
@@ -88,6 +92,6 @@ int main(int argc, char** argv) {
         if (!is_first) std::this_thread::sleep_for(std::chrono::seconds(2));
         MPI_Abort(MPI_COMM_WORLD, code);
     }
-    MPI_Finalize();
+    if (trisect::app::has_begun_mpi()) MPI_Finalize();
     return is_first ? code : 0;
 }

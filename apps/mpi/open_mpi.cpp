@@ -3,8 +3,10 @@
 
 #include <mpi.h>
 
+#include <charconv>
 #include <cstdlib>
 #include <string_view>
+#include <system_error>
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -15,12 +17,23 @@ namespace trisect::app {
 namespace {
 
 // Where all ranks are on one machine, messages go through its memory. To look for networks takes
-// Open MPI longer than anything else at the start. What the user has set stays.
+// Open MPI longer than anything else at the start. Only networks need to know of memory that is
+// given back, for which Open MPI changes the code of munmap() and others, while threads may be in
+// it. What the user has set stays.
 void look_for_no_network() {
-    const char* all = std::getenv("OMPI_COMM_WORLD_SIZE");
-    const char* here = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
-    if (all == nullptr || here == nullptr || std::string_view(all) != here) return;
+    if (!place_before_mpi()) return;
     ::setenv("OMPI_MCA_pml", "ob1", 0);
+    ::setenv("OMPI_MCA_memory", "^patcher", 0);
+}
+
+std::optional<int> number_of(const char* name) {
+    const char* text = std::getenv(name);
+    int out = 0;
+    if (text == nullptr) return std::nullopt;
+    const char* const end = text + std::string_view(text).size();
+    const auto [at, error] = std::from_chars(text, end, out);
+    if (error != std::errc() || at != end || out < 0) return std::nullopt;
+    return out;
 }
 
 // hwloc, by which Open MPI learns where it is, would ask ten X servers for graphics cards.
@@ -45,11 +58,26 @@ void send_at_once() {
 
 }  // namespace
 
-void begin_mpi(int argc, char** argv) {
+std::optional<RankPlace> place_before_mpi() {
+    const auto rank = number_of("OMPI_COMM_WORLD_RANK");
+    const auto all = number_of("OMPI_COMM_WORLD_SIZE");
+    if (!rank || !all || *rank >= *all || all != number_of("OMPI_COMM_WORLD_LOCAL_SIZE"))
+        return std::nullopt;
+    return RankPlace{*rank, *all};
+}
+
+bool has_begun_mpi() {
+    int has_begun = 0;
+    MPI_Initialized(&has_begun);
+    return has_begun != 0;
+}
+
+void begin_mpi() {
+    if (has_begun_mpi()) return;
     look_for_no_network();
     look_for_no_graphics();
     int provided = 0;
-    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     send_at_once();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "part_messages.h"
 
+#include <utility>
+
 #include "message.h"
 #include "rank_task.h"
 
@@ -12,6 +14,12 @@ std::uint64_t identity_hash(std::string_view id) {
     for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
     hash = (hash ^ (hash >> 32)) * 0x9e3779b97f4a7c15U;
     return hash ^ (hash >> 29);
+}
+
+BoxedPart boxed(ClashPart part, const std::vector<ClashFile>& files) {
+    const Bounds box = posed_box(files[part.file].box.value(), part.pose);
+    const std::uint64_t hash = identity_hash(part.id);
+    return {std::move(part), box, hash};
 }
 
 std::string bytes_of(const ManifestSummary& summary) {

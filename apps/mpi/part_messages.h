@@ -36,6 +36,14 @@ struct SampledBox {
     ClashBox box;
 };
 
+/// A part, its box, and the hash of its identity. They are computed once for each part that a rank
+/// has read, and once more where it was sent to.
+struct BoxedPart {
+    ClashPart part;
+    Bounds box;
+    std::uint64_t hash = 0;
+};
+
 /// What one rank says of its parts once the boxes of files are known.
 struct PartSurvey {
     std::uint64_t boxes = 0;
@@ -62,6 +70,9 @@ struct TileFacts {
 struct TileSurvey {
     std::vector<std::pair<std::uint32_t, std::vector<TileFacts>>> regions;
 };
+
+/// \pre the file has a box
+[[nodiscard]] BoxedPart boxed(ClashPart part, const std::vector<ClashFile>& files);
 
 [[nodiscard]] std::string bytes_of(const ManifestSummary& summary);
 [[nodiscard]] std::string bytes_of(const std::vector<ClashFile>& files);

@@ -87,7 +87,7 @@ void PartSource::read(const std::string& manifest, std::size_t rank, std::size_t
     for (std::size_t i = manifest_->shares() * rank / ranks; i < end && is_whole_; ++i) {
         auto share = manifest_->read(i);
         is_whole_ = share.has_value();
-        if (share) shares_.push_back(std::move(*share));
+        if (share) shares_.push_back({std::move(*share), {}, {}});
     }
     if (!is_whole_) return;
     for (std::size_t b = rank; b < manifest_->blocks(); b += ranks) {
@@ -98,16 +98,28 @@ void PartSource::read(const std::string& manifest, std::size_t rank, std::size_t
 
 void PartSource::take(std::vector<ClashPart> parts) {
     shares_.clear();
-    shares_.push_back({std::move(parts), {}, {}});
+    shares_.push_back({{std::move(parts), {}, {}}, {}, {}});
+    find_hashes(shares_.back());
 }
 
-std::vector<std::vector<std::uint64_t>> PartSource::hashes(std::size_t ranks) const {
+std::size_t PartSource::parts() const {
+    std::size_t out = 0;
+    for (const Share& share : shares_) out += share.read.parts.size();
+    return out;
+}
+
+void PartSource::find_hashes(Share& share) {
+    share.hashes.reserve(share.read.parts.size());
+    for (const ClashPart& part : share.read.parts) share.hashes.push_back(identity_hash(part.id));
+}
+
+std::vector<std::vector<std::uint64_t>> PartSource::hashes(std::size_t ranks) {
     std::vector<std::vector<std::uint64_t>> out(ranks);
-    for (const ManifestShare& share : shares_)
-        for (const ClashPart& part : share.parts) {
-            const std::uint64_t hash = identity_hash(part.id);
-            out[(hash >> 32) % ranks].push_back(hash);
-        }
+    for (auto& of_rank : out) of_rank.reserve(parts() / ranks * 9 / 8);
+    for (Share& share : shares_) {
+        find_hashes(share);
+        for (const std::uint64_t hash : share.hashes) out[(hash >> 32) % ranks].push_back(hash);
+    }
     return out;
 }
 
@@ -115,10 +127,10 @@ ManifestSummary PartSource::summary() const {
     ManifestSummary out;
     out.is_whole = is_whole_;
     if (!is_whole_) return out;
-    for (const ManifestShare& share : shares_) {
-        out.parts += share.parts.size();
-        add_names(out.files, share.files);
-        add_names(out.groups, share.groups);
+    for (const Share& share : shares_) {
+        out.parts += share.read.parts.size();
+        add_names(out.files, share.read.files);
+        add_names(out.groups, share.read.groups);
     }
     for (std::size_t i = 0; i < blocks_.size(); ++i)
         out.blocks.emplace_back(blocks_[i], block_ids_[i]);
@@ -128,33 +140,25 @@ ManifestSummary PartSource::summary() const {
 void PartSource::begin(const RankStart& start) {
     manifest_.reset();
     if (!start.is_divided) {
-        std::erase_if(shares_, [](const ManifestShare& share) { return !share.files.empty(); });
+        std::erase_if(shares_, [](const Share& share) { return !share.read.files.empty(); });
         return;
     }
-    for (ManifestShare& share : shares_) {
-        const auto files = places_of(share.files, start.files);
-        const auto groups = places_of(share.groups, start.groups);
-        for (ClashPart& part : share.parts) {
+    for (Share& share : shares_) {
+        const auto files = places_of(share.read.files, start.files);
+        const auto groups = places_of(share.read.groups, start.groups);
+        for (ClashPart& part : share.read.parts) {
             part.file = files[part.file];
             part.group = groups[part.group];
         }
     }
 }
 
-void PartSource::find_sample(PartSurvey& out, const ClashPart& part, const ClashFile& file,
-                             std::uint64_t stride) const {
-    if (!file.box) return;
-    ++out.boxes;
-    const std::uint64_t hash = identity_hash(part.id);
-    if (hash % stride == 0)
-        out.sample.push_back({hash, {posed_box(*file.box, part.pose), 0, part.group}});
-}
-
 PartSurvey PartSource::survey(const RankStart& start, const std::vector<ClashFile>& files) const {
     PartSurvey out;
     const std::uint64_t stride = stride_of(start.parts);
-    for (const ManifestShare& share : shares_)
-        for (const ClashPart& part : share.parts) {
+    for (const Share& share : shares_)
+        for (std::size_t i = 0; i < share.read.parts.size(); ++i) {
+            const ClashPart& part = share.read.parts[i];
             try {
                 if (!is_pose_for_certain(part.pose))
                     (void)clash_pose(start.manifest, part.id, part.pose);
@@ -165,29 +169,52 @@ PartSurvey PartSource::survey(const RankStart& start, const std::vector<ClashFil
                 out.failure = failure.message;
                 out.code = failure.code;
             }
-            if (!files[part.file].failure.empty()) out.missing.emplace_back(part.file, part.id);
-            find_sample(out, part, files[part.file], stride);
+            const ClashFile& file = files[part.file];
+            if (!file.failure.empty()) out.missing.emplace_back(part.file, part.id);
+            if (!file.box) continue;
+            ++out.boxes;
+            if (share.hashes[i] % stride == 0)
+                out.sample.push_back(
+                    {share.hashes[i], {posed_box(*file.box, part.pose), 0, part.group}});
         }
+    std::ranges::sort(out.sample, {}, &SampledBox::hash);
     return out;
+}
+
+void PartSource::find_boxes(const std::vector<ClashFile>& files) {
+    for (Share& share : shares_) {
+        if (!share.boxes.empty()) continue;
+        share.boxes.reserve(share.read.parts.size());
+        for (const ClashPart& part : share.read.parts) {
+            const auto& box = files[part.file].box;
+            share.boxes.push_back(box ? posed_box(*box, part.pose) : Bounds());
+        }
+    }
 }
 
 void PartSource::route(const RegionPlan& plan, double clearance,
                        const std::vector<ClashFile>& files, std::size_t own, std::size_t ranks,
                        const Keep& keep, const Send& send) {
+    find_boxes(files);
     PartLists lists(ranks, send);
+    std::vector<std::uint32_t> regions;
     std::vector<std::size_t> owners;
-    for (ManifestShare& share : shares_) {
-        for (ClashPart& part : share.parts) {
+    for (Share& share : shares_) {
+        for (std::size_t i = 0; i < share.read.parts.size(); ++i) {
+            ClashPart& part = share.read.parts[i];
             if (!files[part.file].box) continue;
+            regions.clear();
             owners.clear();
-            plan.regions.for_each_cell(
-                posed_box(*files[part.file].box, part.pose), clearance,
-                [&](std::uint32_t region) { owners.push_back(plan.owners[region]); });
+            plan.regions.for_each_cell(share.boxes[i], clearance, [&](std::uint32_t region) {
+                regions.push_back(region);
+                owners.push_back(plan.owners[region]);
+            });
             std::ranges::sort(owners);
             owners.erase(std::unique(owners.begin(), owners.end()), owners.end());
             for (const std::size_t owner : owners)
                 if (owner != own) lists.add(owner, part);
-            if (std::ranges::binary_search(owners, own)) keep(std::move(part));
+            if (std::ranges::binary_search(owners, own))
+                keep({std::move(part), share.boxes[i], share.hashes[i]}, regions);
         }
         share = {};
     }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,30 +28,39 @@ public:
     [[nodiscard]] const SharedManifest& manifest() const { return *manifest_; }
     /// All parts, where the first rank has read the whole.
     void take(std::vector<ClashPart> parts);
+    [[nodiscard]] std::size_t parts() const;
 
     /// Hashes of all identities, for the rank that compares them.
-    [[nodiscard]] std::vector<std::vector<std::uint64_t>> hashes(std::size_t ranks) const;
+    [[nodiscard]] std::vector<std::vector<std::uint64_t>> hashes(std::size_t ranks);
     [[nodiscard]] ManifestSummary summary() const;
 
     /// Parts with the files and groups of the whole, in place of those of shares.
     void begin(const RankStart& start);
     [[nodiscard]] PartSurvey survey(const RankStart& start,
                                     const std::vector<ClashFile>& files) const;
+    /// Boxes of all parts, so that they are there when the regions come.
+    void find_boxes(const std::vector<ClashFile>& files);
     /// Parts for a rank, as a list that part_list_of() reads; whether it is the last one for it.
     using Send = std::function<void(std::size_t rank, std::string bytes)>;
-    using Keep = std::function<void(ClashPart part)>;
-    /// Parts of `own` regions are kept, others are sent.
+    using Keep = std::function<void(BoxedPart&& part, std::span<const std::uint32_t> regions)>;
+    /// Parts of `own` regions are kept, with all regions that they meet; others are sent.
     void route(const RegionPlan& plan, double clearance, const std::vector<ClashFile>& files,
                std::size_t own, std::size_t ranks, const Keep& keep, const Send& send);
 
 private:
-    void find_sample(PartSurvey& out, const ClashPart& part, const ClashFile& file,
-                     std::uint64_t stride) const;
+    struct Share;
+    static void find_hashes(Share& share);
+
+    struct Share {
+        ManifestShare read;
+        std::vector<std::uint64_t> hashes;  // of identities
+        std::vector<Bounds> boxes;          // once they are asked for; any where there is none
+    };
 
     std::optional<SharedManifest> manifest_;
     std::vector<std::uint64_t> blocks_;
     std::vector<std::string> block_ids_;
-    std::vector<ManifestShare> shares_;
+    std::vector<Share> shares_;
     bool is_whole_ = true;
 };
 

@@ -12,8 +12,8 @@ constexpr std::uint32_t elsewhere = 0xffffffff;
 
 }  // namespace
 
-void PartStore::find_regions(const RegionPlan& plan, std::size_t own) {
-    places_.assign(plan.regions.size(), elsewhere);
+PartStore::PartStore(const RegionPlan& plan, std::size_t own)
+    : plan_(plan), places_(plan.regions.size(), elsewhere) {
     for (std::uint32_t r = 0; r < plan.regions.size(); ++r) {
         if (plan.owners[r] != own) continue;
         places_[r] = static_cast<std::uint32_t>(regions_.size());
@@ -21,18 +21,15 @@ void PartStore::find_regions(const RegionPlan& plan, std::size_t own) {
     }
 }
 
-void PartStore::list_boxes(const RegionPlan& plan, double clearance,
-                           const std::vector<ClashFile>& files) {
-    for (std::uint32_t n = 0; n < parts_.size(); ++n) {
-        const ClashPart& part = parts_[n];
-        const ClashBox box{posed_box(files[part.file].box.value(), part.pose), n, part.group};
-        const std::uint64_t hash = identity_hash(part.id);
-        plan.regions.for_each_cell(box.box, clearance, [&](std::uint32_t region) {
-            if (places_[region] == elsewhere) return;
-            regions_[places_[region]].boxes.push_back(box);
-            regions_[places_[region]].hashes.push_back(hash);
-        });
+void PartStore::add(BoxedPart&& part, std::span<const std::uint32_t> regions) {
+    const auto number = static_cast<std::uint32_t>(parts_.size());
+    for (const std::uint32_t region : regions) {
+        if (places_[region] == elsewhere) continue;
+        Region& to = regions_[places_[region]];
+        to.boxes.push_back({part.box, number, part.part.group});
+        to.hashes.push_back(part.hash);
     }
+    parts_.push_back(std::move(part.part));
 }
 
 void PartStore::sort_boxes(Region& region) {
@@ -46,15 +43,12 @@ void PartStore::sort_boxes(Region& region) {
     region.hashes = {};
 }
 
-TileSurvey PartStore::divide(const RegionPlan& plan, const ClashLimits& limits,
-                             const std::vector<ClashFile>& files, std::size_t own) {
-    find_regions(plan, own);
-    list_boxes(plan, limits.most(), files);
+TileSurvey PartStore::divide(const ClashLimits& limits) {
     TileSurvey out;
     for (Region& region : regions_) {
         sort_boxes(region);
         const ClashTiles& tiles = region.tiles.emplace_back(
-            region.boxes, limits, plan.regions.cell(region.number), plan.most_load);
+            region.boxes, limits, plan_.regions.cell(region.number), plan_.most_load);
         auto& facts = out.regions.emplace_back(region.number, std::vector<TileFacts>()).second;
         for (std::size_t i = 0; i < tiles.size(); ++i)
             facts.push_back({tiles.cell(i), tiles.boxes(i).size()});

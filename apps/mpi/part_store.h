@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "part_messages.h"
@@ -18,10 +19,14 @@ namespace trisect::app {
 /// manifest alone: parts of a region are in the order of the hashes of their identities.
 class PartStore {
 public:
-    void add(ClashPart part) { parts_.push_back(std::move(part)); }
+    /// \param plan stays alive as long as this
+    PartStore(const RegionPlan& plan, std::size_t own);
+
+    void reserve(std::size_t parts) { parts_.reserve(parts); }
+    /// \param regions all that the box meets, also those of other ranks
+    void add(BoxedPart&& part, std::span<const std::uint32_t> regions);
     /// \pre all parts are here
-    [[nodiscard]] TileSurvey divide(const RegionPlan& plan, const ClashLimits& limits,
-                                    const std::vector<ClashFile>& files, std::size_t own);
+    [[nodiscard]] TileSurvey divide(const ClashLimits& limits);
     /// Safe to use from many threads, as part().
     [[nodiscard]] TileParts tile(std::uint32_t region, std::uint32_t tile) const;
     [[nodiscard]] const ClashPart& part(std::uint32_t number) const { return parts_[number]; }
@@ -36,10 +41,9 @@ private:
         std::vector<ClashTiles> tiles;      // one, once it was made
     };
 
-    void find_regions(const RegionPlan& plan, std::size_t own);
-    void list_boxes(const RegionPlan& plan, double clearance, const std::vector<ClashFile>& files);
     static void sort_boxes(Region& region);
 
+    const RegionPlan& plan_;
     std::vector<ClashPart> parts_;
     std::vector<Region> regions_;        // its own
     std::vector<std::uint32_t> places_;  // of a region in these, by its number

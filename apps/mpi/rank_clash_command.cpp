@@ -2,7 +2,10 @@
 #include "rank_clash_command.h"
 
 #include "coordinating_rank.h"
+#include "manifest_reading.h"
+#include "open_mpi.h"
 #include "rank_station.h"
+#include "rank_steps.h"
 #include "trisect/clash_command.h"
 #include "trisect/clash_output.h"
 #include "trisect/values.h"
@@ -24,12 +27,18 @@ void RankClashCommand::declare(CLI::App& app) {
 
 Outcome RankClashCommand::run(Session& session, const std::string&) const {
     check_clash_outputs(session, options_.clash);  // every rank sees the same
+    RankSteps steps;
+    steps.note(RankSteps::Began);
+    const auto place = has_begun_mpi() ? std::nullopt : place_before_mpi();
+    ManifestReading reading(options_.clash.manifest, place);
+    begin_mpi();
     is_open_ = true;
+    steps.note(RankSteps::Joined);
     Outcome out;
     if (Ranks::rank() == 0)
-        out = CoordinatingRank(session, options_, is_open_).run();
+        out = CoordinatingRank(session, options_, {reading, steps}, is_open_).run();
     else
-        serve(session, options_);
+        serve(session, options_, {reading, steps});
     is_open_ = false;
     return out;
 }

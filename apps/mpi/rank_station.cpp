@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "message.h"
@@ -23,16 +24,20 @@ std::string hashes_bytes(const std::vector<std::uint64_t>& hashes) {
 
 }  // namespace
 
-RankStation::RankStation(Session& session, const RankClashOptions& options, Ranks& ranks)
+RankStation::RankStation(Session& session, const RankClashOptions& options, const RankBegin& begin,
+                         Ranks& ranks)
     : session_(session),
       options_(options),
       ranks_(ranks),
       own_(static_cast<std::size_t>(Ranks::rank())),
       count_(static_cast<std::size_t>(Ranks::count())),
+      reading_(begin.reading),
+      steps_(begin.steps),
       sources_left_(count_) {}
 
 void RankStation::begin() {
-    source_.read(options_.clash.manifest, own_, count_);
+    source_ = reading_.take();
+    steps_.note(RankSteps::Read);
     const auto hashes = source_.hashes(count_);
     for (std::size_t r = 0; r < count_; ++r)
         ranks_.send(static_cast<int>(r), Ranks::Hashes, hashes_bytes(hashes[r]));
@@ -99,6 +104,7 @@ void RankStation::compare(const std::string& hashes) {
     summary.has_twice = std::ranges::adjacent_find(hashes_) != hashes_.end();
     hashes_ = {};
     ranks_.send(0, Ranks::Summary, bytes_of(summary));
+    steps_.note(RankSteps::Compared);
 }
 
 void RankStation::start(const std::string& bytes) {
@@ -109,6 +115,7 @@ void RankStation::start(const std::string& bytes) {
                                      rank_journal(options_, Ranks::rank()), kept_));
     kept_.clear();
     answer(RankResult());  // it is ready
+    steps_.note(RankSteps::Started);
 }
 
 void RankStation::obey(const RankOrder& order) {
@@ -123,18 +130,26 @@ void RankStation::obey(const RankOrder& order) {
 void RankStation::survey(const std::string& files) {
     files_ = clash_files_of(files);
     ranks_.send(0, Ranks::Survey, bytes_of(source_.survey(*start_, files_)));
+    steps_.note(RankSteps::Surveyed);
+    // While the first rank plans the regions.
+    if (own_ != 0) source_.find_boxes(files_);
+    boxes_ += source_.parts();
 }
 
 void RankStation::route(const std::string& regions) {
     plan_ = region_plan_of(regions);
-    store_.emplace();
+    store_.emplace(*plan_, own_);
+    store_->reserve(source_.parts());
     const ClashLimits limits(start_->sets, start_->groups.size());
     source_.route(
         *plan_, limits.most(), files_, own_, count_,
-        [&](ClashPart part) { store_->add(std::move(part)); },
+        [&](BoxedPart&& part, std::span<const std::uint32_t> met) {
+            store_->add(std::move(part), met);
+        },
         [&](std::size_t rank, std::string bytes) {
             ranks_.send(static_cast<int>(rank), Ranks::Parts, std::move(bytes));
         });
+    steps_.note(RankSteps::Routed);
     for (const std::string& bytes : std::exchange(early_, {})) add_parts(bytes);
     --sources_left_;
     divide_if_all_are_here();
@@ -146,7 +161,16 @@ void RankStation::add_parts(const std::string& bytes) {
         return;
     }
     PartList list = part_list_of(bytes);
-    for (ClashPart& part : list.parts) store_->add(std::move(part));
+    boxes_ += list.parts.size();
+    const ClashLimits limits(start_->sets, start_->groups.size());
+    std::vector<std::uint32_t> met;
+    for (ClashPart& part : list.parts) {
+        BoxedPart with_box = boxed(std::move(part), files_);
+        met.clear();
+        plan_->regions.for_each_cell(with_box.box, limits.most(),
+                                     [&](std::uint32_t region) { met.push_back(region); });
+        store_->add(std::move(with_box), met);
+    }
     if (!list.is_last) return;
     --sources_left_;
     divide_if_all_are_here();
@@ -155,7 +179,8 @@ void RankStation::add_parts(const std::string& bytes) {
 void RankStation::divide_if_all_are_here() {
     if (sources_left_ != 0) return;
     const ClashLimits limits(start_->sets, start_->groups.size());
-    ranks_.send(0, Ranks::Tiles, bytes_of(store_->divide(*plan_, limits, files_, own_)));
+    ranks_.send(0, Ranks::Tiles, bytes_of(store_->divide(limits)));
+    steps_.note(RankSteps::Divided);
 }
 
 bool RankStation::send_results() {
@@ -175,7 +200,10 @@ void RankStation::end() {
         result.end = local_->worker().ended();
         result.end.idle = local_->idle();
     }
+    steps_.note(RankSteps::Ended);
     result.kind = RankResult::Kind::End;
+    result.end.boxes = boxes_;
+    result.end.steps = steps_;
     result.end.messages = ranks_.messages();
     result.end.bytes = ranks_.bytes();
     answer(std::move(result));
@@ -200,10 +228,10 @@ void RankStation::answer(RankResult&& result) {
     answer(out);
 }
 
-void serve(Session& session, const RankClashOptions& options) {
+void serve(Session& session, const RankClashOptions& options, const RankBegin& begin) {
     session.interruptible_stage("pairs", [&] {
         Ranks ranks;
-        RankStation station(session, options, ranks);
+        RankStation station(session, options, begin, ranks);
         station.begin();
         for (Patience patience; !station.has_ended();) {
             bool has_come = false;

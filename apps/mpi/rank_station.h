@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "local_rank.h"
+#include "manifest_reading.h"
 #include "part_source.h"
 #include "part_store.h"
 #include "rank_clash_command.h"
@@ -18,6 +19,12 @@
 #include "trisect/session.h"
 
 namespace trisect::app {
+
+/// What a rank has before messages.
+struct RankBegin {
+    ManifestReading& reading;
+    RankSteps steps;
+};
 
 /// Answers messages, one after the other; what it has to do then is done by a second thread, so
 /// that other ranks that need a tile need not wait.
@@ -30,7 +37,8 @@ namespace trisect::app {
 ///   4. It does slices of tiles, as ordered: of its own, and of ranks that have more left.
 class RankStation {
 public:
-    RankStation(Session& session, const RankClashOptions& options, Ranks& ranks);
+    RankStation(Session& session, const RankClashOptions& options, const RankBegin& begin,
+                Ranks& ranks);
 
     /// The first step.
     void begin();
@@ -69,6 +77,8 @@ private:
     std::size_t own_;
     std::size_t count_;
 
+    ManifestReading& reading_;
+    RankSteps steps_;
     PartSource source_;
     std::size_t compared_ = 0;
     std::vector<std::uint64_t> hashes_;
@@ -80,6 +90,7 @@ private:
     std::vector<std::string> early_;  // parts from ranks that had the regions first
     std::size_t sources_left_ = 0;
     std::optional<PartStore> store_;
+    std::uint64_t boxes_ = 0;  // computed
     bool has_ended_ = false;
 };
 
@@ -87,6 +98,6 @@ private:
 [[nodiscard]] std::string rank_journal(const RankClashOptions& options, int rank);
 
 /// All that a rank other than the coordinating one does. \throw CancelledError
-void serve(Session& session, const RankClashOptions& options);
+void serve(Session& session, const RankClashOptions& options, const RankBegin& begin);
 
 }  // namespace trisect::app

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "message.h"
+#include "rank_steps.h"
 #include "trisect/clash_files.h"
 #include "trisect/clash_manifest.h"
 #include "trisect/clash_pairs.h"
@@ -79,6 +80,8 @@ struct RankEnd {
     std::uint64_t reads = 0;     ///< files that were read, also again
     std::uint64_t messages = 0;  ///< sent and received
     std::uint64_t bytes = 0;     ///< of these
+    std::uint64_t boxes = 0;     ///< of parts, that were computed
+    RankSteps steps;
 };
 
 struct RankResult {
