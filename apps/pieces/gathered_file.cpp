@@ -13,6 +13,7 @@
 #include <trisect/kernel/error.h>
 
 #include "piecewise_file.h"
+#include "piecewise_import.h"
 #include "triangle_stream.h"
 
 namespace trisect::app {
@@ -65,7 +66,9 @@ DoubleMesh imported_mesh(const std::string& name) {
 }  // namespace
 
 void gather_triangles(const std::string& name, const std::string& output) {
-    const DoubleMesh mesh = is_native_file(name) ? native_mesh(name) : imported_mesh(name);
+    const bool is_native = is_native_file(name);
+    if (!is_native && is_imported_in_pieces(name)) return import_in_pieces(name, output);
+    const DoubleMesh mesh = is_native ? native_mesh(name) : imported_mesh(name);
     OutputStream out(output);
     for (const auto& t : mesh.triangles)
         for (const std::uint32_t corner : t) out.write(mesh.points[corner]);

@@ -15,6 +15,7 @@
 
 #include "piece_join.h"
 #include "piecewise_file.h"
+#include "piecewise_import.h"
 
 namespace trisect::app {
 
@@ -37,6 +38,17 @@ std::uint64_t most_triangles(const SlabOptions& options) {
     return (memory - base_bytes) / triangle_bytes;
 }
 
+// Nothing where a file is not read in pieces, or not as it should be: then it is read as a whole,
+// which says what is wrong.
+std::optional<std::uint64_t> triangles_of(const std::string& name) {
+    try {
+        if (TriangleStream::can_open(name)) return TriangleStream::open(name)->size();
+        if (is_imported_in_pieces(name)) return guessed_triangles(name);
+    } catch (const Error&) {
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 bool needs_slabs(const SlabOptions& options) {
@@ -44,8 +56,9 @@ bool needs_slabs(const SlabOptions& options) {
     if (!is_slab_operation(options.operation)) return false;
     std::uint64_t triangles = 0;
     for (const std::string& name : options.inputs) {
-        if (!TriangleStream::can_open(name)) return false;
-        triangles += TriangleStream::open(name)->size();
+        const auto found = triangles_of(name);
+        if (!found) return false;
+        triangles += *found;
     }
     return triangles > options.memory / whole_bytes;
 }

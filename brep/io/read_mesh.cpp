@@ -23,15 +23,14 @@ MeshFormat mesh_format_of(const std::filesystem::path& path, std::string_view da
                      "off, ply, 3mf, glb, amf, step and dxf");
 }
 
-PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::string& name,
-                      const ReadOptions& options) {
-    if (holds_models(format)) {
-        const Model model = read_model(data, format, name, options);
-        return model.parts.size() == 1 ? model.parts.front().mesh : merged(model);
-    }
+namespace {
+
+PolygonMesh read_one_mesh(std::string_view data, MeshFormat format, const std::string& name,
+                          const ReadOptions& options, MeshSink* sink) {
     if (format == MeshFormat::Stl) format = detect_stl_kind(data);
     const bool binary = format == MeshFormat::StlBinary;
-    const detail::InputText source(data, name, options.limits, binary);
+    detail::InputText source(data, name, options.limits, binary);
+    source.give_pieces_to(sink);
     if (data.size() > options.limits.bytes) {
         throw LimitError(name + ": more than " + std::to_string(options.limits.bytes) +
                          " bytes, the limit for a file");
@@ -50,6 +49,25 @@ PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::strin
             break;
     }
     return detail::read_stl_ascii(source);
+}
+
+}  // namespace
+
+PolygonMesh read_mesh(std::string_view data, MeshFormat format, const std::string& name,
+                      const ReadOptions& options) {
+    if (!holds_models(format)) return read_one_mesh(data, format, name, options, nullptr);
+    const Model model = read_model(data, format, name, options);
+    return model.parts.size() == 1 ? model.parts.front().mesh : merged(model);
+}
+
+bool is_read_in_pieces(MeshFormat format) noexcept { return !holds_models(format); }
+
+void read_mesh_in_pieces(std::string_view data, MeshFormat format, const std::string& name,
+                         MeshSink& sink, const ReadOptions& options) {
+    if (!is_read_in_pieces(format))
+        throw UnsupportedError(name + ": " + std::string(to_string(format)) +
+                               " is not read in pieces");
+    (void)read_one_mesh(data, format, name, options, &sink);
 }
 
 PolygonMesh read_mesh(std::span<const std::byte> data, MeshFormat format, const std::string& name,

@@ -81,4 +81,23 @@ struct ReadOptions {
 [[nodiscard]] PolygonMesh read_mesh(std::span<const std::byte> data, MeshFormat format,
                                     const std::string& name, const ReadOptions& options = {});
 
+/// Takes a mesh that is larger than memory.
+class MeshSink {
+public:
+    virtual ~MeshSink() = default;
+    /// What follows in the file: points, and faces whose corners count the points of all pieces and
+    /// may be of pieces that come later.
+    virtual void take(const PolygonMesh& piece) = 0;
+};
+
+/// Whether read_mesh_in_pieces() reads a format: OBJ, OFF, PLY and STL.
+[[nodiscard]] bool is_read_in_pieces(MeshFormat format) noexcept;
+
+/// The same mesh as read_mesh(), and the same errors, but no more than some thousand points and
+/// faces of it in memory at a time. Corners of STL are not connected: each is a point.
+/// `data` may be a mapped file.
+/// \throw as read_mesh(); UnsupportedError for another format
+void read_mesh_in_pieces(std::string_view data, MeshFormat format, const std::string& name,
+                         MeshSink& sink, const ReadOptions& options = {});
+
 }  // namespace trisect

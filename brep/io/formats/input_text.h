@@ -39,6 +39,9 @@ public:
         copy.quick_ = false;
         return copy;
     }
+    /// Who takes the mesh piece by piece; null: nobody, and readers return it.
+    [[nodiscard]] MeshSink* sink() const noexcept { return sink_; }
+    void give_pieces_to(MeshSink* sink) noexcept { sink_ = sink; }
     /// The same bytes with places given as byte offsets: the body of a binary PLY.
     [[nodiscard]] InputText as_binary() const {
         InputText copy = *this;
@@ -70,6 +73,7 @@ private:
     ReadLimits limits_;
     bool binary_;
     bool quick_ = true;
+    MeshSink* sink_ = nullptr;
     char line_end_ = '\n';
 };
 

@@ -48,11 +48,10 @@ public:
     PolygonMesh read() {
         do quick_lines();
         while (text_.next_line() && statement());
-        PolygonMesh mesh = mesh_.finish();
-        if (mesh.points.empty() && mesh.corners.empty() && unknown_ != nullptr) {
+        if (mesh_.point_count() == 0 && mesh_.face_count() == 0 && unknown_ != nullptr) {
             source_.fail(unknown_, "no vertices, no faces and a statement that OBJ does not have");
         }
-        return mesh;
+        return mesh_.finish();
     }
 
 private:

@@ -443,7 +443,8 @@ private:
 template <bool Big>
 PolygonMesh read_bytes(const InputText& source, const PlyHeader& header,
                        const std::vector<std::vector<Role>>& roles) {
-    if (const auto layout = common_layout(header, roles); layout && source.allows_quick())
+    const bool is_quick = source.allows_quick() && source.sink() == nullptr;
+    if (const auto layout = common_layout(header, roles); layout && is_quick)
         if (auto mesh = QuickBody<Big>(source, *layout, header.body).read())
             return *std::move(mesh);
     return BodyReader<ByteValues<Big>>(source, header).read(roles);

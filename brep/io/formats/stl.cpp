@@ -36,10 +36,17 @@ namespace {
 class SoupBuilder {
 public:
     SoupBuilder(const InputText& source, std::uint64_t faces_hint)
-        : mesh_(source, 0), welder_(mesh_.points(), faces_hint / 2) {
+        : mesh_(source, 0),
+          welder_(mesh_.points(), source.sink() == nullptr ? faces_hint / 2 : 0),
+          is_given_away_(source.sink() != nullptr) {
         mesh_.reserve(faces_hint / 2, faces_hint, 3 * faces_hint);
     }
     void add_corner(const Point3d& p, const char* at) {
+        if (is_given_away_) {
+            mesh_.add_point(p, at);
+            mesh_.add_corner(mesh_.point_count() - 1, at);
+            return;
+        }
         const std::uint32_t v = welder_.vertex(p);
         if (v >= known_) {
             mesh_.check_point_count(at);
@@ -53,6 +60,7 @@ public:
 private:
     MeshBuilder mesh_;
     VertexWelder welder_;
+    bool is_given_away_;  // piece by piece, and not connected
     std::uint32_t known_ = 0;
 };
 
@@ -249,7 +257,8 @@ bool load_corners(const char* record, std::size_t count, Point3d* out) {
 /// Files without errors that are far from all limits, in blocks; nothing for others.
 std::optional<PolygonMesh> read_records_quickly(const InputText& source, std::uint64_t count) {
     constexpr std::size_t block = VertexWelder::block / 3;
-    if (!source.allows_quick() || count > 0x4000'0000U) return std::nullopt;
+    if (!source.allows_quick() || source.sink() != nullptr || count > 0x4000'0000U)
+        return std::nullopt;
     if (source.limits().loop_corners < 3) return std::nullopt;
     PolygonMesh mesh;
     VertexWelder welder(mesh.points, count / 2);
