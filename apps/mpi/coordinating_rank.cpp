@@ -341,7 +341,8 @@ void CoordinatingRank::write(const ClashReport& report) {
                           posed_box(read.file.box.value(), part.pose), part.id, part.group};
     };
     write_clash_outputs(session_, options_.clash, manifest_, report, [&](std::size_t i) {
-        const Json& clash = report.clashes[i];
+        Json read;
+        const Json& clash = report.clash(i, read);
         return clash_picture(clash, part_of(clash.at("a")), part_of(clash.at("b")));
     });
     if (!options_.costs.empty()) session_.write_output(options_.costs, coordinator_->costs_table());
@@ -355,12 +356,9 @@ void CoordinatingRank::write_partial() noexcept {
     if (!coordinator_) return;
     try {
         const ClashReport report = coordinator_->take_report();
-        session_.write_output(
-            partial_name(),
-            clash_json(manifest_, report).dump(1, ' ', false, Json::error_handler_t::replace) +
-                '\n');
+        session_.write_output(partial_name(), clash_json(manifest_, report));
         session_.note(fmt::format("{}: {} clashes until now, {} of {} cells not done",
-                                  partial_name(), report.clashes.size(), report.undone.size(),
+                                  partial_name(), report.count(), report.undone.size(),
                                   coordinator_->tiles()));
     } catch (const std::exception& e) {
         session_.note(partial_name() + ": " + e.what());
@@ -417,7 +415,7 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
     const std::string remarks =
         fmt::format("{} parts of {} files in {} tiles on {} ranks, {} pairs of boxes, {} clashes",
                     manifest_.size(), manifest_.files.size(), coordinator_->tiles(), all_.size(),
-                    pairs, report.clashes.size());
+                    pairs, report.count());
     out.remarks = out.remarks.empty() ? remarks : remarks + '\n' + out.remarks;
     return out;
 }

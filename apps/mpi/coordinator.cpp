@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "trisect/clash_merge.h"
@@ -230,7 +231,9 @@ void Coordinator::take_over_tiles() {
         if (entry.contains("parts"))
             for (const Json& part : entry.at("parts"))
                 manifest_.parts.push_back(part_of_json(part));
-        add_slice(piece, tile.slices, std::move(entry.at("found")));
+        std::vector<ClashText> found;
+        for (const Json& record : entry.at("found")) found.push_back(clash_text(record));
+        add_slice(piece, tile.slices, std::move(found));
     }
     for (std::size_t i = 0; i < tiles_.size(); ++i)
         for (std::uint32_t s = 0; is_known[i] && s < tiles_[i].slices; ++s)
@@ -238,10 +241,15 @@ void Coordinator::take_over_tiles() {
     done_.clear();
 }
 
-void Coordinator::add_slice(std::uint64_t piece, std::uint32_t slices, Json&& found) {
+void Coordinator::add_slice(std::uint64_t piece, std::uint32_t slices,
+                            std::vector<ClashText>&& found) {
     Tile& tile = tiles_[tile_of(piece)];
-    for (Json& record : found)
-        (record.contains("error") ? unanswered_ : clashes_).push_back(std::move(record));
+    for (ClashText& clash : found) {
+        if (clash.is_answer)
+            clashes_.push_back(std::move(clash));
+        else
+            unanswered_.push_back(Json::parse(clash.text));
+    }
     ++tile.done;
     if (tile.slices == 0) {
         tile.slices = slices;
@@ -300,9 +308,11 @@ ClashReport Coordinator::take_report() {
     manifest_.parts.erase(twice, manifest_.parts.end());
     ClashReport out;
     out.manifest = options_.manifest;
-    out.clashes = std::exchange(clashes_, {});
+    out.texts = std::exchange(clashes_, {});
     out.unanswered = std::exchange(unanswered_, {});
-    sort_clashes(manifest_, out.clashes);
+    // Those of a pair came in the order of sets.
+    std::ranges::stable_sort(out.texts, {},
+                             [](const ClashText& c) { return std::tie(c.a, c.b); });
     sort_clashes(manifest_, out.unanswered);
     std::ranges::sort(missing_);
     std::vector<std::vector<std::string>> parts(files_.size());

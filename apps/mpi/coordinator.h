@@ -88,7 +88,7 @@ private:
 
     void take_over(const FinishedPieces& done);
     void take_over_tiles();
-    void add_slice(std::uint64_t piece, std::uint32_t slices, Json&& found);
+    void add_slice(std::uint64_t piece, std::uint32_t slices, std::vector<ClashText>&& found);
     [[nodiscard]] bool next_file(RankOrder& order);
     [[nodiscard]] bool next_slices(std::size_t rank, RankOrder& order);
     [[nodiscard]] bool next_tiles(std::size_t rank, RankOrder& order);
@@ -123,7 +123,7 @@ private:
     std::uint64_t failed_piece_ = 0;
     std::vector<PieceCost> costs_;
     double seconds_ = 0;  // of all tiles
-    std::vector<Json> clashes_;
+    std::vector<ClashText> clashes_;
     std::vector<Json> unanswered_;
     std::vector<std::pair<std::uint32_t, std::string>> missing_;
 };

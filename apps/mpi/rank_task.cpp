@@ -39,9 +39,14 @@ void put_result(MessageWriter& out, const RankResult& result) {
     out.put(result.piece);
     if (result.kind == RankResult::Kind::File) put_file(out, result.file);
     out.put(result.slices);
-    out.put_text(result.records.empty()
-                     ? ""
-                     : result.records.dump(-1, ' ', false, Json::error_handler_t::replace));
+    out.put(std::uint64_t{result.records.size()});
+    for (const ClashText& clash : result.records) {
+        out.put_text(clash.a);
+        out.put_text(clash.b);
+        out.put_text(clash.set);
+        out.put_text(clash.text);
+        out.put(clash.is_answer);
+    }
     out.put(std::uint64_t{result.parts.size()});
     for (const ClashPart& part : result.parts) put_part(out, part);
     out.put(result.code);
@@ -58,8 +63,14 @@ RankResult get_result(MessageReader& in) {
     out.piece = in.get<std::uint64_t>();
     if (out.kind == RankResult::Kind::File) out.file = get_file(in);
     out.slices = in.get<std::uint32_t>();
-    const std::string records = in.get_text();
-    if (!records.empty()) out.records = Json::parse(records);
+    out.records.resize(in.get<std::uint64_t>());
+    for (ClashText& clash : out.records) {
+        clash.a = in.get_text();
+        clash.b = in.get_text();
+        clash.set = in.get_text();
+        clash.text = in.get_text();
+        clash.is_answer = in.get<bool>();
+    }
     out.parts.resize(in.get<std::uint64_t>());
     for (ClashPart& part : out.parts) part = get_part(in);
     out.code = in.get<int>();

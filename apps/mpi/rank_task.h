@@ -12,6 +12,7 @@
 #include "trisect/clash_files.h"
 #include "trisect/clash_manifest.h"
 #include "trisect/clash_pairs.h"
+#include "trisect/clash_text.h"
 #include "trisect/outcome.h"
 
 namespace trisect::app {
@@ -90,7 +91,7 @@ struct RankResult {
     std::uint64_t piece = 0;
     ClashFile file;
     std::uint32_t slices = 1;  ///< of the tile
-    Json records;
+    std::vector<ClashText> records;
     std::vector<ClashPart> parts;  ///< that occur in the records
     int code = 0;                  ///< of a failure
     std::string message;

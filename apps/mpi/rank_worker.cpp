@@ -45,7 +45,7 @@ RankAnswer RankWorker::done(const RankTask& task) {
     RankAnswer out;
     out.is_of_order = true;
     const auto begin = Clock::now();
-    if (task.store == nullptr || task.store != store_) tile_.reset();  // numbers of another task
+    if (task.store == nullptr || task.store != store_) are_parts_of_task_ = false;
     store_ = task.store;
     const std::vector<RankPiece>& pieces = task.order.pieces;
     try {
@@ -112,32 +112,45 @@ void RankWorker::read_file(std::uint64_t file, RankResult& result) {
 
 void RankWorker::answer_slice(const RankTask& task, std::size_t at, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
-    if (tile_ != tile_of(result.piece)) find_candidates(task, at);
+    // Orders of one tile follow each other: pairs are the same, by places in its list.
+    if (tile_ != tile_of(result.piece))
+        find_candidates(task, at);
+    else if (!are_parts_of_task_)
+        parts_ = task.tile(at);
+    are_parts_of_task_ = true;
     const std::size_t size =
         std::max(pairs_of_slice(options_), (pairs_.size() + most_slices - 1) / most_slices);
     const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
     const std::size_t begin = std::min(slice_of(result.piece) * size, pairs_.size());
     const std::size_t n = std::min(size, pairs_.size() - begin);
     std::vector<std::vector<Json>> records(n);
+    std::vector<std::vector<ClashText>> texts(n);
     for_each_in_parallel(n, session_.limits(),
-                         [&](std::size_t i) { records[i] = answers(task, pairs_[begin + i]); });
+                         [&](std::size_t i) {
+                             records[i] = answers(task, pairs_[begin + i]);
+                             for (const Json& record : records[i])
+                                 texts[i].push_back(clash_text(record));
+                         });
+    Json found = Json::array();
     for (std::size_t i = 0; i < n; ++i) {
         if (!records[i].empty()) add_parts(task, pairs_[begin + i], result);
-        for (Json& record : records[i]) result.records.push_back(std::move(record));
+        for (Json& record : records[i]) found.push_back(std::move(record));
+        for (ClashText& text : texts[i]) result.records.push_back(std::move(text));
     }
     result.slices = static_cast<std::uint32_t>(slices);
     result.pairs = n;
-    add_entry(result);
+    add_entry(result, std::move(found));
 }
 
 // Most tiles have no clash, and are written without a document.
-void RankWorker::add_entry(const RankResult& result) {
-    if (result.records.empty()) {
+void RankWorker::add_entry(const RankResult& result, Json&& found) {
+    if (found.empty()) {
         entries_ += fmt::format("{{\"piece\":{},\"records\":{{\"found\":[],\"slices\":{}}}}}\n",
                                 result.piece, result.slices);
         return;
     }
-    Json entry{{"slices", result.slices}, {"found", result.records}};
+    Json entry{{"slices", result.slices}};
+    entry["found"] = std::move(found);
     for (const ClashPart& part : result.parts) entry["parts"].push_back(part_json(part));
     entries_ += ClashJournal::entry(result.piece, entry);
 }

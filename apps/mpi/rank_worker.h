@@ -48,7 +48,7 @@ private:
     void read_file(std::uint64_t file, RankResult& result);
     void answer_slice(const RankTask& task, std::size_t at, RankResult& result);
     void find_candidates(const RankTask& task, std::size_t at);
-    void add_entry(const RankResult& result);
+    void add_entry(const RankResult& result, Json&& found);
     void add_parts(const RankTask& task, const ClashCandidate& pair, RankResult& result) const;
     [[nodiscard]] std::vector<Json> answers(const RankTask& task, const ClashCandidate& pair);
     [[nodiscard]] PlacedPart placed(const RankTask& task, std::uint32_t box);
@@ -61,6 +61,7 @@ private:
     const PartStore* store_ = nullptr;   // of which that is; null: another rank's
     std::optional<std::uint64_t> tile_;  // of which the pairs are
     TileParts parts_;                    // of an own one its numbers, of another's those of a task
+    bool are_parts_of_task_ = false;
     std::vector<ClashCandidate> pairs_;
     std::string entries_;  // for the journal
     ClashJournal journal_;

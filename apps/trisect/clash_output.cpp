@@ -26,9 +26,7 @@ std::string report_bytes(ReportFormat format, const ClashManifest& manifest,
                          const ClashReport& report, const ClashPicture& picture) {
     switch (format) {
         case ReportFormat::Json:
-            return clash_json(manifest, report)
-                       .dump(1, ' ', false, Json::error_handler_t::replace) +
-                   '\n';
+            return clash_json(manifest, report);
         case ReportFormat::Csv:
             return clash_csv(manifest, report);
         case ReportFormat::Bcf:
@@ -40,10 +38,11 @@ std::string report_bytes(ReportFormat format, const ClashManifest& manifest,
 std::string first_clashes(const ClashManifest& manifest, const ClashReport& report) {
     constexpr std::size_t most_shown = 20;
     std::string out;
-    for (std::size_t i = 0; i < std::min(most_shown, report.clashes.size()); ++i)
-        out += clash_title(manifest, report.clashes[i]) + "\n";
-    if (report.clashes.size() > most_shown)
-        out += fmt::format("and {} more\n", report.clashes.size() - most_shown);
+    Json read;
+    for (std::size_t i = 0; i < std::min(most_shown, report.count()); ++i)
+        out += clash_title(manifest, report.clash(i, read)) + "\n";
+    if (report.count() > most_shown)
+        out += fmt::format("and {} more\n", report.count() - most_shown);
     return out;
 }
 
@@ -68,17 +67,18 @@ void write_clash_outputs(Session& session, const ClashOptions& options,
     if (options.pictures.empty()) return;
     const std::filesystem::path folder(options.pictures);
     std::filesystem::create_directories(folder);
-    for (std::size_t i = 0; i < report.clashes.size(); ++i) {
-        const std::string id = report.clashes[i].at("id").get<std::string>();
+    Json read;
+    for (std::size_t i = 0; i < report.count(); ++i) {
+        const std::string id = report.clash(i, read).at("id").get<std::string>();
         session.write_output((folder / (id + ".png")).string(), picture(i));
     }
 }
 
 Outcome clash_outcome(const ClashManifest& manifest, const ClashReport& report) {
     Outcome out;
-    out.code = report.clashes.empty() && report.is_complete() ? exit_done : exit_findings;
+    out.code = report.count() == 0 && report.is_complete() ? exit_done : exit_findings;
     out.document = clash_head_json(manifest, report);
-    out.document["clashes"] = report.clashes.size();
+    out.document["clashes"] = report.count();
     out.answer = first_clashes(manifest, report);
     if (!report.is_complete())
         out.remarks = fmt::format("incomplete: {} files left out, {} pairs without an answer",

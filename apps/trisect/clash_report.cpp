@@ -127,6 +127,7 @@ Json clash_head_json(const ClashManifest& manifest, const ClashReport& report) {
     if (!report.geometry.is_null()) out["geometry"] = report.geometry;
     std::map<std::string, std::size_t> counts;
     for (const Json& clash : report.clashes) ++counts[text_of(clash, "set")];
+    for (const ClashText& clash : report.texts) ++counts[clash.set];
     out["sets"] = Json::array();
     for (const ClashSet& set : manifest.sets) {
         Json s;
@@ -143,16 +144,32 @@ Json clash_head_json(const ClashManifest& manifest, const ClashReport& report) {
     return out;
 }
 
-Json clash_json(const ClashManifest& manifest, const ClashReport& report) {
-    Json out = clash_head_json(manifest, report);
-    out["clashes"] = report.clashes;
-    return out;
+std::string clash_json(const ClashManifest& manifest, const ClashReport& report) {
+    Json document = clash_head_json(manifest, report);
+    document["clashes"] = report.clashes;
+    std::string out = document.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+    if (report.texts.empty()) return out;
+    // Into the list, which is empty and the last member.
+    constexpr std::string_view end = "]\n}\n";
+    out.resize(out.size() - end.size());
+    std::size_t bytes = out.size() + 2 * end.size();
+    for (const ClashText& clash : report.texts) bytes += clash.text.size() + 4;
+    out.reserve(bytes);
+    const char* between = "\n  ";
+    for (const ClashText& clash : report.texts) {
+        out += between;
+        out += clash.text;
+        between = ",\n  ";
+    }
+    return (out += "\n ") += end;
 }
 
 std::string clash_csv(const ClashManifest& manifest, const ClashReport& report) {
     std::string out =
         "id,set,a,b,name_a,name_b,group_a,group_b,relation,x,y,z,size,distance,volume\n";
-    for (const Json& clash : report.clashes) {
+    Json read;
+    for (std::size_t i = 0; i < report.count(); ++i) {
+        const Json& clash = report.clash(i, read);
         const ClashPart& a = part_of(manifest, clash.at("a"));
         const ClashPart& b = part_of(manifest, clash.at("b"));
         const Json& p = clash.at("point");
@@ -174,8 +191,9 @@ std::string clash_bcf(const ClashManifest& manifest, const ClashReport& report,
     zip.add("bcf.version",
             std::string(xml_head) +
                 "<Version VersionId=\"2.1\"><DetailedVersion>2.1</DetailedVersion></Version>\n");
-    for (std::size_t i = 0; i < report.clashes.size(); ++i) {
-        const Json& clash = report.clashes[i];
+    Json read;
+    for (std::size_t i = 0; i < report.count(); ++i) {
+        const Json& clash = report.clash(i, read);
         const std::string folder = text_of(clash, "id") + "/";
         const std::string png = picture(i);
         zip.add(folder + "markup.bcf", markup_xml(manifest, clash, !png.empty()));
