@@ -24,10 +24,9 @@ constexpr std::size_t orders_of_all = 2;
 // back the rest has not held much.
 constexpr double seconds_of_an_order = 0.01;
 constexpr std::size_t pieces_of_unknown_cost = 16;
-// When a rank gets its next piece only after the last one: so few are left for each, and they take
-// more than this on average.
+// When a rank gets its next piece only after the last one: so few are left for each. It waits for a
+// message then, a few times, which is less than a tile of many parts takes.
 constexpr std::size_t pieces_of_the_end = 4;
-constexpr double seconds_of_a_message = 0.003;
 // Which take about a millisecond to read.
 constexpr std::uint64_t bytes_of_a_short_file = std::uint64_t{32} << 10;
 
@@ -100,8 +99,7 @@ std::size_t Coordinator::ahead() const {
         file_bytes_[file_order_[next_file_]] > bytes_of_a_short_file)
         return 1;
     const std::size_t left = slices_left_ + not_ordered_;
-    const bool are_long = seconds_ > seconds_of_a_message * static_cast<double>(costs_.size());
-    return are_long && left < pieces_of_the_end * left_.size() ? 1 : 3;
+    return left < pieces_of_the_end * left_.size() ? 1 : 3;
 }
 
 void Coordinator::add_piece(RankOrder& order, std::uint64_t number) const {

@@ -75,7 +75,13 @@ TileParts PartStore::tile(std::uint32_t region, std::uint32_t tile) const {
 FetchedTiles PartStore::fetched(const std::vector<RankPiece>& pieces) const {
     FetchedTiles out;
     std::unordered_map<std::uint32_t, std::uint32_t> places;
+    const RankPiece* last = nullptr;
     for (const RankPiece& piece : pieces) {
+        const bool is_last =
+            last != nullptr && last->region == piece.region && last->tile == piece.tile;
+        last = &piece;
+        out.places.push_back(static_cast<std::uint32_t>(out.tiles.size()) - (is_last ? 1 : 0));
+        if (is_last) continue;
         TileParts& tile = out.tiles.emplace_back(this->tile(piece.region, piece.tile));
         for (std::uint32_t& number : tile.parts) {
             const auto [at, is_new] =

@@ -181,6 +181,7 @@ std::string bytes_of(const RankTask& task) {
         out.put_list(tile.boxes);
         out.put_list(tile.parts);
     }
+    out.put_list(task.fetched.places);
     return out.take();
 }
 
@@ -196,11 +197,12 @@ RankTask rank_task_of(const std::string& bytes) {
         tile.boxes = in.get_list<ClashBox>();
         tile.parts = in.get_list<std::uint32_t>();
     }
+    out.fetched.places = in.get_list<std::uint32_t>();
     return out;
 }
 
 TileParts RankTask::tile(std::size_t piece) const {
-    if (store == nullptr) return fetched.tiles.at(piece);
+    if (store == nullptr) return fetched.tiles.at(fetched.places.at(piece));
     return store->tile(order.pieces.at(piece).region, order.pieces.at(piece).tile);
 }
 

@@ -57,7 +57,8 @@ struct TileParts {
 /// Tiles of another rank, with their parts, each once.
 struct FetchedTiles {
     std::vector<ClashPart> parts;
-    std::vector<TileParts> tiles;  ///< of each piece of the order
+    std::vector<TileParts> tiles;       ///< each once, where its pieces follow each other
+    std::vector<std::uint32_t> places;  ///< in these, of each piece of the order
 };
 
 class PartStore;
