@@ -51,8 +51,7 @@ Coordinator::Coordinator(const ClashOptions& options, ClashManifest& manifest,
     take_over(done);
     std::vector<std::pair<std::uint64_t, std::uint64_t>> sizes;
     for (std::size_t i = 0; i < files_.size(); ++i)
-        if (!knows_file_[i])
-            sizes.emplace_back(file_bytes_[i] = size_of(manifest_.files[i]), i);
+        if (!knows_file_[i]) sizes.emplace_back(file_bytes_[i] = size_of(manifest_.files[i]), i);
     std::ranges::stable_sort(sizes, std::ranges::greater(), [](const auto& s) { return s.first; });
     for (const auto& [size, file] : sizes) file_order_.push_back(file);
 }
@@ -309,8 +308,7 @@ ClashReport Coordinator::take_report() {
     out.texts = std::exchange(clashes_, {});
     out.unanswered = std::exchange(unanswered_, {});
     // Those of a pair came in the order of sets.
-    std::ranges::stable_sort(out.texts, {},
-                             [](const ClashText& c) { return std::tie(c.a, c.b); });
+    std::ranges::stable_sort(out.texts, {}, [](const ClashText& c) { return std::tie(c.a, c.b); });
     sort_clashes(manifest_, out.unanswered);
     std::ranges::sort(missing_);
     std::vector<std::vector<std::string>> parts(files_.size());

@@ -59,8 +59,8 @@ public:
     /// All is done, or something failed that ends the run.
     [[nodiscard]] bool is_over() const { return failure_ || (has_tiles_ && tiles_left_ == 0); }
     [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
-    /// How many orders a rank has at a time. One, where few pieces are left, or they differ, as files
-    /// do: a rank that has two would do both while another one waits.
+    /// How many orders a rank has at a time. One, where few pieces are left, or they differ, as
+    /// files do: a rank that has two would do both while another one waits.
     [[nodiscard]] std::size_t ahead() const;
 
     /// Of what was done until now, and what was not; once.

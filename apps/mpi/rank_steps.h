@@ -23,8 +23,7 @@ struct RankSteps {
         count
     };
     static constexpr std::array<const char*, count> names{
-        "began",    "joined", "read",    "compared", "started",
-        "surveyed", "routed", "divided", "ended"};
+        "began", "joined", "read", "compared", "started", "surveyed", "routed", "divided", "ended"};
 
     struct Time {
         double clock = 0;      ///< seconds of a clock that all ranks of one machine have in common

@@ -125,12 +125,10 @@ void RankWorker::answer_slice(const RankTask& task, std::size_t at, RankResult& 
     const std::size_t n = std::min(size, pairs_.size() - begin);
     std::vector<std::vector<Json>> records(n);
     std::vector<std::vector<ClashText>> texts(n);
-    for_each_in_parallel(n, session_.limits(),
-                         [&](std::size_t i) {
-                             records[i] = answers(task, pairs_[begin + i]);
-                             for (const Json& record : records[i])
-                                 texts[i].push_back(clash_text(record));
-                         });
+    for_each_in_parallel(n, session_.limits(), [&](std::size_t i) {
+        records[i] = answers(task, pairs_[begin + i]);
+        for (const Json& record : records[i]) texts[i].push_back(clash_text(record));
+    });
     Json found = Json::array();
     for (std::size_t i = 0; i < n; ++i) {
         if (!records[i].empty()) add_parts(task, pairs_[begin + i], result);

@@ -42,6 +42,8 @@ public:
     PointsAndFaces(const std::string& points, const std::string& faces)
         : points_(points), faces_(faces) {}
     void take(const PolygonMesh& piece) override {
+        has_points_ = has_points_ || !piece.points.empty();
+        has_faces_ = has_faces_ || piece.face_count() != 0;
         points_.write(piece.points.data(), piece.points.size() * sizeof(Point3d));
         for (std::size_t f = 0; f < piece.face_count(); ++f) {
             const auto face = piece.face(f);
@@ -49,6 +51,8 @@ public:
             faces_.write(face.data(), face.size_bytes());
         }
     }
+    /// A text that was cut among its points would be an empty solid.
+    [[nodiscard]] bool lacks_faces() const { return has_points_ && !has_faces_; }
     void finish() {
         points_.finish();
         faces_.finish();
@@ -57,6 +61,8 @@ public:
 private:
     OutputStream points_;
     OutputStream faces_;
+    bool has_points_ = false;
+    bool has_faces_ = false;
 };
 
 /// Numbers of a file, one after the other.
@@ -177,6 +183,8 @@ void import_in_pieces(const std::string& name, const std::string& output) {
         const std::string_view bytes = bytes_of(file);
         PointsAndFaces parts(points, faces);
         read_mesh_in_pieces(bytes, format_of(name, bytes), name, parts, without_limits());
+        if (parts.lacks_faces())
+            throw InputError({name, 0, 0, file.size()}, "the file ends without a face");
         parts.finish();
     }
     {

@@ -12,7 +12,7 @@ namespace trisect::app {
 /// Whoever finds a clash writes it, and reports put texts together: a tenth of the memory of a
 /// document, and no other process has to read what it says.
 struct ClashText {
-    std::string a;    ///< identities of parts
+    std::string a;  ///< identities of parts
     std::string b;
     std::string set;
     std::string text;        ///< JSON, indented as in the list of a report

@@ -121,6 +121,39 @@ class RankClash(unittest.TestCase):
         self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
 
     @unittest.skipUnless(READY, 'no MPI')
+    def test_ranks_share_what_is_done_for_parts(self):
+        subprocess.run([sys.executable, MAKE_PLANT, self.folder, '--parts', '20000', '--clashes', '20'], check=True,
+                       stdout=subprocess.DEVNULL)
+        for count in (1, 2, 4):
+            done = call([*ranks(count), 'clash', str(self.manifest), '-o', str(self.folder / 'o.json'), '--json', '-q'])
+            document = json.loads(done.stdout)
+            boxes = [rank['boxes'] for rank in document['ranks']]
+            # Once for each part, and once more for one that another rank was sent.
+            moved = sum(boxes) - document['parts']
+            self.assertGreaterEqual(moved, 0)
+            self.assertLess(moved, 0.6 * document['parts'])
+            self.assertLess(max(boxes), 1.2 * sum(boxes) / count)
+            self.assertLess(document['message_bytes'], 100 * document['parts'] * min(count - 1, 2) + 1)
+            for rank in document['ranks']:
+                steps = [step['step'] for step in rank['steps']]
+                self.assertEqual(steps, ['began', 'joined', 'read', 'compared', 'started', 'surveyed', 'routed', 'divided',
+                                         'ended'])
+                processor = [step['processor'] for step in rank['steps']]
+                self.assertEqual(processor, sorted(processor))
+
+    @unittest.skipUnless(READY, 'no MPI')
+    def test_a_tile_is_sent_once_for_its_pieces(self):
+        # 600 parts in one place, of which each of six is compared with all others: many pieces of one tile.
+        parts = [{'file': 'block.off', 'id': f'{i}', 'group': 'few' if i % 100 == 0 else 'many'} for i in range(600)]
+        sets = [{'name': 'all', 'a': 'few', 'b': 'many'}]
+        self.manifest.write_text(json.dumps({'parts': parts, 'sets': sets}), encoding='ascii')
+        done = call([*ranks(2), 'clash', str(self.manifest), '-o', str(self.folder / 'o.json'), '--json', '-q'])
+        document = json.loads(done.stdout)
+        self.assertEqual(document['clashes'], 6 * 594)
+        # A tile has 600 times some 200 bytes, a clash some 1,000; all 112 pieces with a tile each would be 13 MB.
+        self.assertLess(document['message_bytes'], 9_000_000)
+
+    @unittest.skipUnless(READY, 'no MPI')
     def test_where_parts_are_cut_is_a_guess(self):
         # The list may be anywhere, and texts may look like parts: then one rank reads the whole.
         document = json.loads(self.manifest.read_text(encoding='ascii'))

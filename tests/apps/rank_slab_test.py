@@ -95,6 +95,80 @@ class RankSlabs(unittest.TestCase):
                 self.assertLess(abs(diff['only_first']['volume']) + abs(diff['only_second']['volume']), 1e-9)
             self.b = first
 
+    def write_as(self, name):
+        """The second ring, as a text that no converter of ours writes."""
+        whole = pathlib.Path(self.b).read_bytes()
+        facets = [struct.unpack_from('<12f', whole, 84 + 50 * i)[3:] for i in range((len(whole) - 84) // 50)]
+        facets = [(f[0:3], f[3:6], f[6:9]) for f in facets]
+        points = sorted({p for f in facets for p in f})
+        number = {p: i for i, p in enumerate(points)}
+        path = self.folder / name
+        with open(path, 'w', encoding='ascii') as file:
+            if name.endswith('.stl'):
+                file.write('solid ring\n')
+                for f in facets:
+                    corners = ''.join('vertex %r %r %r\n' % p for p in f)
+                    file.write(f'facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n')
+                file.write('endsolid\n')
+            elif name.endswith('.ply'):
+                file.write(f'ply\nformat ascii 1.0\nelement vertex {len(points)}\nproperty double x\nproperty double y\n'
+                           f'property double z\nelement face {len(facets)}\n'
+                           'property list uchar int vertex_indices\nend_header\n')
+                file.write(''.join('%r %r %r\n' % p for p in points))
+                file.write(''.join('3 %d %d %d\n' % tuple(number[p] for p in f) for f in facets))
+            else:
+                # Faces first, then points, and normals between.
+                file.write(''.join('f %d//1 %d//1 %d//1\n' % tuple(number[p] + 1 for p in f) for f in facets))
+                file.write(''.join('v %r %r %r\nvn 0 0 1\n' % p for p in points))
+        return path
+
+    def test_texts_in_pieces(self):
+        expected = self.boolean([TRISECT], 'union', 'slabs.ply', '--slabs', '4').read_bytes()
+        first = self.b
+        for name in ('text.stl', 'text.ply', 'text.obj'):
+            self.b = str(self.write_as(name))
+            # One triangle after the other, as in the binary file: the same slabs, the same bytes.
+            self.assertEqual(self.boolean([TRISECT], 'union', 'found.ply', '--slabs', '4').read_bytes(), expected, name)
+            lines = pathlib.Path(self.b).read_text(encoding='ascii').splitlines(keepends=True)
+            broken = self.folder / f'broken{pathlib.Path(name).suffix}'
+            at = next(i for i, line in enumerate(lines) if i > 40 and line.count('.') == 3)
+            broken.write_text(''.join([*lines[:at], lines[at].replace('.', '.x'), *lines[at + 1:]]), encoding='ascii')
+            done = call([TRISECT, 'union', self.a, str(broken), '-o', str(self.folder / 'o.ply'), '--slabs', '4'])
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn(f'{broken.name}:{at + 1}:', done.stderr)
+            self.assertFalse((self.folder / 'o.ply.slabs').exists())
+            self.b = first
+        # Cut among its points it would be an empty solid.
+        (self.folder / 'cut.obj').write_text('v 0 0 0\nv 1 0 0\nv 0 1 0\n', encoding='ascii')
+        done = call([TRISECT, 'union', self.a, str(self.folder / 'cut.obj'), '-o', str(self.folder / 'o.ply'), '--slabs', '4'])
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn('cut.obj:', done.stderr)
+
+    def test_polygons_in_pieces(self):
+        # Boxes of quadrilaterals, in both formats that have them, that share a part of a face's plane.
+        for name, shift in (('box.off', 0), ('box.obj', 5)):
+            at = [(x + shift, y + shift / 2, z) for x in (0, 10) for y in (0, 10) for z in (0, 10)]
+            quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+            if name.endswith('off'):
+                text = 'OFF\n8 6 0\n' + ''.join('%r %r %r\n' % p for p in at) + ''.join('4 %d %d %d %d\n' % q for q in quads)
+            else:
+                text = ''.join('v %r %r %r\n' % p for p in at)
+                text += ''.join('f %d %d %d %d\n' % tuple(c - 8 for c in q) for q in quads)
+            (self.folder / name).write_text(text, encoding='ascii')
+        self.a, self.b = str(self.folder / 'box.off'), str(self.folder / 'box.obj')
+        slabs = self.boolean([TRISECT], 'union', 'slabs.ply', '--slabs', '3')
+        whole = self.boolean([TRISECT], 'union', 'whole.ply')
+        diff = json.loads(call([TRISECT, 'diff', str(slabs), str(whole), '--json']).stdout)
+        self.assertEqual([diff[side]['volume'] for side in ('only_first', 'only_second')], [0, 0])
+
+    def test_memory_decides_for_texts(self):
+        # 400 bytes for each of 600,000 triangles are too many.
+        write_ring(self.b, 600, 500, 0.7, 17.3)
+        self.b = str(self.write_as('text.obj'))
+        out = self.folder / 'o.ply'
+        done = call([TRISECT, 'union', self.a, self.b, '-o', str(out), '--json', '--assume-embedded', '--max-memory', '150M'])
+        self.assertEqual(json.loads(done.stdout)['schema'], 'trisect.slabs/1', done.stderr)
+
     def test_memory_decides(self):
         out = self.folder / 'o.ply'
         done = call([TRISECT, 'union', self.a, self.b, '-o', str(out), '--json', '--max-memory', '2G'])

@@ -131,9 +131,8 @@ private:
                                       ? std::to_string(index + index_base_)
                                       : std::to_string(index);
         source_.fail(at, "vertex " + shown + " (counted from " + std::to_string(index_base_) +
-                             ") does not exist; the file has " +
-                             std::to_string(point_count()) + " vertices" +
-                             (index >= vertex_limit_ ? " so far" : ""));
+                             ") does not exist; the file has " + std::to_string(point_count()) +
+                             " vertices" + (index >= vertex_limit_ ? " so far" : ""));
     }
 
     [[noreturn]] void corner_limit(const char* at) const {
