@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// RankSteps: when a rank was done with what.
+// RankSteps: the times at which a rank was done with what.
 #pragma once
 
 #include <array>

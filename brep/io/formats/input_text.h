@@ -39,7 +39,7 @@ public:
         copy.quick_ = false;
         return copy;
     }
-    /// Who takes the mesh piece by piece; null: nobody, and readers return it.
+    /// Who takes the mesh piece by piece; null: readers return it.
     [[nodiscard]] MeshSink* sink() const noexcept { return sink_; }
     void give_pieces_to(MeshSink* sink) noexcept { sink_ = sink; }
     /// The same bytes with places given as byte offsets: the body of a binary PLY.
