@@ -288,6 +288,7 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
     }
     if (imported.mesh.triangles.empty())
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    const bool are_gone = imported.mesh.triangles.size() < mesh.triangles.size();
     auto [names, number] = numbered(mesh.source);
     std::vector<std::uint32_t> faces;
     faces.reserve(imported.mesh.triangles.size());
@@ -298,7 +299,7 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
     StatePtr out = state_of(std::move(imported.mesh), imported.report.t_edges != 0,
                             solid.source_id(), std::move(names), is_complement);
     // Fronts and backs may be left.
-    if (report.flipped_faces > 0 && exact_volume(detail::solid_of(out).to_exact_mesh()).sign() == 0)
+    if (are_gone && exact_volume(detail::solid_of(out).to_exact_mesh()).sign() == 0)
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
     return out;
 }
