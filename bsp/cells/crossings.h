@@ -72,6 +72,7 @@ struct Crossings {
     /// general position.
     std::vector<std::uint32_t> special;
     InfinitesimalShift shift;
+    std::shared_ptr<const CornerMoves> moves;  ///< those of the shift
     /// Whether another part of the result has the other sides of the same facets
     /// (UndividedMeshes::beside).
     bool has_other_sides = false;

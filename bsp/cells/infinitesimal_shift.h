@@ -11,10 +11,13 @@
 
 namespace trisect::detail {
 
+struct CornerMoves;
+
 /// The second one of two meshes is moved by e along the first of these axes, e² along the second
 /// one and e³ along the third one, with these signs. Before that it may grow about a centre by a
 /// factor 1 + d, or shrink by 1 - d, with a d that is larger than all e, and then again about
-/// another centre, with a d between those two.
+/// another centre, with a d between those two. Or, in place of growth, each of its corners may move
+/// by a vector of its own.
 struct InfinitesimalShift {
     std::array<std::uint8_t, 3> axes{0, 1, 2};
     std::array<std::int8_t, 3> signs{1, 1, 1};  ///< in the order of `axes`
@@ -22,6 +25,7 @@ struct InfinitesimalShift {
     LatticePoint centre;
     std::int8_t next_growth = 0;
     LatticePoint next_centre;
+    const CornerMoves* moves = nullptr;
 
     /// The sign of the product of a vector and the move along the axes, by the signs of the
     /// vector's components; 0 for 0.

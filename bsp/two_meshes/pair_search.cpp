@@ -10,6 +10,7 @@
 #include <atomic>
 #include <bit>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <trisect/bsp/cells/leaf_problem.h>
@@ -21,6 +22,7 @@
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/two_meshes/facet_clip.h>
+#include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -52,10 +54,19 @@ struct SharedSearch {
     bool has_long_facets = false;           // set by the finder that begins
     bool has_planes = false;                // both lists have facets across an axis; set likewise
     std::atomic<bool> has_equal{false};     // all may stop
+    std::atomic<bool> is_hopeless{false};   // all may stop as well
     std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();
+    // What is not as wanted ends it, since no other move of the kind is tried.
+    [[nodiscard]] bool is_final() const {
+        return operands.shift.moves != nullptr || (operands.shift.growth != 0 && !keeps_sides);
+    }
+    [[nodiscard]] bool may_stop() const {
+        return has_equal.load(std::memory_order_relaxed) ||
+               is_hopeless.load(std::memory_order_relaxed);
+    }
 };
 
 // Compares facets of two meshes, some of each.
@@ -116,12 +127,22 @@ private:
         note_special(0, a);
         note_special(1, b);
     }
+    void give_up() { search_.is_hopeless.store(true, std::memory_order_relaxed); }
     void look_at_plane(const PolygonRef& first, bool is_above, bool same_side);
-    void keep_side(const PolygonRef& first, bool above, bool same_side, bool is_wish);
-    [[nodiscard]] bool is_plane_known(const PolygonRef& first, bool same_side) const;
+    void keep_side(const PolygonRef& first, bool same_side, bool is_wish);
+    // Of facets in one plane, that face the same way or not: whether just one of the two meshes
+    // bounds the result there.
+    [[nodiscard]] bool does_one_bound(bool same_side) const {
+        const auto& o = search_.operands.operands;
+        return (o[0].inside_above == o[1].inside_above) == same_side;
+    }
+    [[nodiscard]] bool wants_above() const { return search_.operands.operands[0].is_open_below(); }
+    [[nodiscard]] bool is_pair_known(const PolygonRef& first, const ShiftedPair& pair) const;
     [[nodiscard]] bool leave_out(CellTask& task);
     void solve_both(std::array<CellTask, 2>& children);
     [[nodiscard]] bool settle_plane(const CellTask& task);
+    [[nodiscard]] std::optional<int> side_of_all(const PolygonRef& first,
+                                                 std::span<const PolygonRef> second) const;
     [[nodiscard]] bool settle_side(std::span<const PolygonRef> first,
                                    std::span<const PolygonRef> second, bool same_side);
     [[nodiscard]] bool is_known(const std::array<int, 3>& normal, bool same_side) const {
@@ -286,7 +307,7 @@ bool PairFinder::leave_out(CellTask& task) {
 }
 
 void PairFinder::solve(CellTask& task) {
-    if (search_.has_equal.load(std::memory_order_relaxed)) return;
+    if (search_.may_stop()) return;
     const auto mark = arena_.mark();
     ++stats_.cells;
     check_budget(search_.options, stats_);
@@ -460,12 +481,28 @@ bool PairFinder::settle_plane(const CellTask& task) {
     return true;
 }
 
+// On which side of a facet others of its plane go; nothing where they do not go to one.
+std::optional<int> PairFinder::side_of_all(const PolygonRef& first,
+                                           std::span<const PolygonRef> second) const {
+    const InfinitesimalShift& shift = search_.operands.shift;
+    const FacetCorners corners = corners_of(first);
+    const int side = side_of_shifted(corners, corners_of(second[0]), shift);
+    const auto is_same = [&](const PolygonRef& r) {
+        return side_of_shifted(corners, corners_of(r), shift) == side;
+    };
+    if (side == 0 || (shift.moves != nullptr && !std::ranges::all_of(second.subspan(1), is_same)))
+        return std::nullopt;
+    return side;
+}
+
 // Looks for two that cover a part of the plane. False where there are none among many. It does not
 // ask what is known: that depends on which cells a thread has come to.
 bool PairFinder::settle_side(std::span<const PolygonRef> first, std::span<const PolygonRef> second,
                              bool same_side) {
     if (first.empty() || second.empty()) return true;
-    const bool is_above = side_of_shifted(corners_of(first[0]), search_.operands.shift) > 0;
+    const auto side = side_of_all(first[0], second);
+    if (!side) return false;
+    const bool is_above = *side > 0;
     std::size_t tries = 16 * (first.size() + second.size());
     for (const PolygonRef& a : first)
         for (const PolygonRef& b : second) {
@@ -583,6 +620,8 @@ void PairFinder::decide(LeafIndex first, LeafIndex second) {
     const ShiftedPair pair = relate_shifted(corners_of(a), corners_of(b), shift);
     ++stats_.doubtful_pairs;
     if (pair.touches) note_special(a, b);
+    if (pair.is_torn && coplanar_overlap(corners_of(a), corners_of(b)) == Overlap::Insides)
+        give_up();
     switch (pair.kind) {
         case ShiftedPair::Kind::Apart:
             break;
@@ -597,11 +636,11 @@ void PairFinder::decide(LeafIndex first, LeafIndex second) {
                 search_.has_equal.store(true, std::memory_order_relaxed);
             } else {
                 note_special(a, b);
-                look_at_plane(a, side_of_shifted(corners_of(a), shift) > 0, pair.same_side);
+                look_at_plane(a, pair.is_above, pair.same_side);
             }
             break;
         case ShiftedPair::Kind::Coplanar: {
-            if (is_special(0, a) && is_special(1, b) && is_plane_known(a, pair.same_side)) break;
+            if (is_special(0, a) && is_special(1, b) && is_pair_known(a, pair)) break;
             const Overlap overlap = coplanar_overlap(corners_of(a), corners_of(b));
             if (overlap != Overlap::None) note_special(a, b);
             if (overlap == Overlap::Insides) look_at_plane(a, pair.is_above, pair.same_side);
@@ -622,32 +661,41 @@ void PairFinder::note_special(std::size_t operand, const PolygonRef& facet) {
 // covers it as well. On the other side the second one stands for both, or there is a result, or
 // none, of no thickness between them.
 void PairFinder::look_at_plane(const PolygonRef& first, bool is_above, bool same_side) {
-    const auto& operands = search_.operands.operands;
-    const bool same_way = operands[0].inside_above == operands[1].inside_above;
-    const bool wants_above = operands[0].is_open_below();
-    const bool one_does = same_way == same_side;
+    const bool is_so_now = is_above == wants_above();
+    const bool one_does = does_one_bound(same_side);
+    if (search_.is_final()) {
+        directions_.has_wish = directions_.has_wish || one_does;
+        if (!one_does && !is_so_now) give_up();
+        return;
+    }
     bool& is_so = one_does ? directions_.is_as_wished : directions_.is_as_wanted;
-    is_so = is_so && is_above == wants_above;
-    if (search_.keeps_sides) return keep_side(first, wants_above, same_side, one_does);
+    is_so = is_so && is_so_now;
+    if (search_.keeps_sides) return keep_side(first, same_side, one_does);
     std::array<int, 3> direction = normal_signs(corners_of(first));
     if (!is_known(direction, same_side)) known_planes_.emplace_back(direction, same_side);
-    if (!wants_above)
+    if (!wants_above())
         for (int& d : direction) d = -d;
     auto& list = one_does ? directions_.wished : directions_.wanted;
-    if (std::ranges::find(list, direction) == list.end()) list.push_back(direction);
+    if (std::ranges::find(list, direction) != list.end()) return;
+    list.push_back(direction);
+    if (!one_does && !shift_along(list)) give_up();
 }
 
 // Each facet once for either way in which others of its plane face.
-void PairFinder::keep_side(const PolygonRef& first, bool above, bool same_side, bool is_wish) {
+void PairFinder::keep_side(const PolygonRef& first, bool same_side, bool is_wish) {
     if (kept_sides_.empty()) kept_sides_.resize(first.source->facet_count());
     const auto bit = static_cast<std::uint8_t>(same_side ? 1 : 2);
     if ((kept_sides_[first.facet] & bit) != 0) return;
     kept_sides_[first.facet] = static_cast<std::uint8_t>(kept_sides_[first.facet] | bit);
-    directions_.sides.push_back({first.facet, above, is_wish});
+    directions_.sides.push_back({first.facet, wants_above(), is_wish});
 }
 
-// Whether another pair of this facet says nothing new.
-bool PairFinder::is_plane_known(const PolygonRef& first, bool same_side) const {
+// Whether another pair of one plane says nothing new.
+bool PairFinder::is_pair_known(const PolygonRef& first, const ShiftedPair& pair) const {
+    if (search_.is_final())
+        return pair.is_above == wants_above() &&
+               (directions_.has_wish || !does_one_bound(pair.same_side));
+    const bool same_side = pair.same_side;
     if (!search_.keeps_sides) return is_known(normal_signs(corners_of(first)), same_side);
     return !kept_sides_.empty() && (kept_sides_[first.facet] & (same_side ? 1 : 2)) != 0;
 }
@@ -673,9 +721,10 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
     for (const TwoLists& lists : parts) {
         if (lists[0].empty() || lists[1].empty()) continue;
         search.finder().run(nodes_, lists);
-        if (search.has_equal.load()) break;
+        if (search.may_stop()) break;
     }
     out.has_equal = search.has_equal.load();
+    out.is_hopeless = search.is_hopeless.load();
     out.is_certain = !search.is_uncertain.load();
     search.finders.for_each([&](PairFinder& f) {
         if (!out.has_equal) crossings.append(f.take_crossings());
@@ -686,6 +735,7 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
         out.sides.insert(out.sides.end(), found.sides.begin(), found.sides.end());
         out.is_as_wanted = out.is_as_wanted && found.is_as_wanted;
         out.is_as_wished = out.is_as_wished && found.is_as_wished;
+        out.has_wish = out.has_wish || found.has_wish;
     });
     std::ranges::sort(out.sides);
     // Not std::ranges::unique: clang 14 refuses g++ 12's subrange.

@@ -24,8 +24,10 @@ inline constexpr std::uint64_t parallel_facets = 4096;
 class PairSearch {
 public:
     struct Outcome {
-        bool has_equal = false;  ///< some facet has an equal; all else is left out then
-        bool is_certain = true;  ///< all pairs were decided
+        bool is_hopeless = false;  ///< no move along the axes, or not that of corners, is as
+                                   ///< wanted; then the search ended
+        bool has_equal = false;    ///< some facet has an equal; all else is left out then
+        bool is_certain = true;    ///< all pairs were decided
         /// Directions, by their signs, in which the second mesh must be moved: else both meshes
         /// bound the result where they have a part of a plane in common. They do not depend on how
         /// it was moved.
@@ -34,6 +36,7 @@ public:
         std::vector<std::array<int, 3>> wished;
         bool is_as_wanted = true;  ///< it was moved so
         bool is_as_wished = true;
+        bool has_wish = false;          ///< where corners move
         std::vector<WantedSide> sides;  ///< by facet, where `keeps_sides`
     };
 

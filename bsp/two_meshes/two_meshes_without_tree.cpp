@@ -31,6 +31,7 @@
 #include <span>
 #include <utility>
 
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/cells/budget.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/work_budget.h>
@@ -39,6 +40,7 @@
 #include <trisect/bsp/two_meshes/equal_facets.h>
 #include <trisect/bsp/two_meshes/facet_sides.h>
 #include <trisect/bsp/two_meshes/growth_about.h>
+#include <trisect/bsp/two_meshes/outward_moves.h>
 #include <trisect/bsp/two_meshes/pair_search.h>
 #include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -157,69 +159,65 @@ public:
           operands_(operands),
           search_(two.nodes, options, memory, parallel) {}
 
+    // Where facets of both cover a part of one plane, it takes a move that is as wanted: of the
+    // whole mesh along the axes; of each corner by itself, where planes want opposite directions;
+    // or growth, where some corner cannot go as all of its facets want.
     [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats) {
-        if (are_flush_on_both_sides()) {
-            start(recognises_equal);
-            if (auto out = find_growing(FoundPairs(), stats)) return out;
-        }
+        recognises_equal_ = recognises_equal;
+        const bool wants_opposites = are_flush_on_both_sides();
+        if (wants_opposites)
+            if (auto out = find_without_direction(stats)) return out;
+        bool is_certain = true;
+        if (auto out = find_along_axes(stats, is_certain)) return out;
+        if (wants_opposites || !is_certain) return std::nullopt;
+        return find_without_direction(stats);
+    }
+
+private:
+    [[nodiscard]] std::optional<FoundPairs> find_without_direction(EvaluateStats& stats) {
+        if (auto out = find_growing(stats, true)) return out;
+        if (auto out = find_by_corners(stats)) return out;
+        return find_growing(stats, false);
+    }
+
+    // Nothing where no direction is as wanted.
+    [[nodiscard]] std::optional<FoundPairs> find_along_axes(EvaluateStats& stats,
+                                                            bool& is_certain) {
+        start(false);
         FoundPairs out;
         InfinitesimalShift shift = first_shift();
-        start(recognises_equal);
         // One finds equal facets, one another direction, which is as wanted.
         for (int turn = 0; turn < 3; ++turn) {
-            out.crossings = operands_;
-            out.crossings.shift = shift;
-            EvaluateStats found;
-            const PairSearch::Outcome outcome = search_.run(out.crossings, found);
-            if (outcome.has_equal) {
-                leave_out_equal(out);
-                continue;
-            }
-            if (!outcome.is_certain) return std::nullopt;
+            const PairSearch::Outcome outcome = search(out, shift);
+            if (outcome.has_equal) continue;
+            if (outcome.is_hopeless) return std::nullopt;
+            is_certain = outcome.is_certain;
+            if (!is_certain) return std::nullopt;
             std::vector<std::array<int, 3>> all = outcome.wanted;
             all.insert(all.end(), outcome.wished.begin(), outcome.wished.end());
             out.shares_facets = out.shares_facets || !outcome.wished.empty();
             auto next = shift_along(all);
-            if (outcome.is_as_wanted && (outcome.is_as_wished || !next)) {
-                stats += found;
-                finish(out);
-                return out;
-            }
+            if (outcome.is_as_wanted && (outcome.is_as_wished || !next)) return finish(out, stats);
             if (!next) next = shift_along(outcome.wanted);
-            if (!next) return find_growing(std::move(out), stats);
+            if (!next) return std::nullopt;
             shift = *next;
         }
         return std::nullopt;
     }
 
-private:
-    void start(bool recognises_equal) {
-        search_.recognises_equal = recognises_equal;
-        search_.keeps_sides = false;
-        search_.parts = {near_};
-    }
-
-    // No direction is as wanted: the second mesh grows or shrinks.
-    [[nodiscard]] std::optional<FoundPairs> find_growing(FoundPairs out, EvaluateStats& stats) {
-        search_.keeps_sides = true;
+    // The second mesh grows or shrinks about the middle of what both have in common, or where that
+    // is not as wanted about another point.
+    [[nodiscard]] std::optional<FoundPairs> find_growing(EvaluateStats& stats, bool about_middle) {
+        start(!about_middle);
+        FoundPairs out;
         InfinitesimalShift shift = first_growth();
         for (int turn = 0; turn < 3; ++turn) {
-            out.crossings = operands_;
-            out.crossings.shift = shift;
-            EvaluateStats found;
-            const PairSearch::Outcome outcome = search_.run(out.crossings, found);
-            if (outcome.has_equal) {
-                leave_out_equal(out);
-                continue;
-            }
-            if (!outcome.is_certain) return std::nullopt;
-            out.shares_facets =
-                out.shares_facets || std::ranges::any_of(outcome.sides, &WantedSide::is_wish);
-            if (outcome.is_as_wanted) {
-                stats += found;
-                finish(out);
-                return out;
-            }
+            const PairSearch::Outcome outcome = search(out, shift);
+            if (outcome.has_equal) continue;
+            if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
+            out.shares_facets = out.shares_facets || outcome.has_wish ||
+                                std::ranges::any_of(outcome.sides, &WantedSide::is_wish);
+            if (outcome.is_as_wanted) return finish(out, stats);
             const auto next = growth_about(*two_.meshes[0], outcome.sides);
             if (!next) return std::nullopt;
             shift = *next;
@@ -227,7 +225,44 @@ private:
         return std::nullopt;
     }
 
-    // About the middle of what both have in common.
+    // Each corner of the second mesh moves by itself. What is wanted of its facets is outwards, or
+    // inwards, of all of them.
+    [[nodiscard]] std::optional<FoundPairs> find_by_corners(EvaluateStats& stats) {
+        const LatticeMesh& mesh = *two_.meshes[1];
+        if (!is_embedded(mesh)) return std::nullopt;
+        start(false);
+        const auto& operands = operands_.operands;
+        const bool is_difference = operands[0].inside_above != operands[1].inside_above;
+        FoundPairs out;
+        moves_ = outward_moves(mesh, near_[1], is_difference != operands[0].is_open_below());
+        InfinitesimalShift shift;
+        shift.moves = moves_.get();
+        for (int turn = 0; turn < 2; ++turn) {
+            const PairSearch::Outcome outcome = search(out, shift);
+            if (outcome.has_equal) continue;
+            if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
+            out.shares_facets = out.shares_facets || outcome.has_wish;
+            out.crossings.moves = moves_;
+            return finish(out, stats);
+        }
+        return std::nullopt;
+    }
+
+    void start(bool keeps_sides) {
+        search_.recognises_equal = recognises_equal_;
+        search_.keeps_sides = keeps_sides;
+        search_.parts = {near_};
+    }
+
+    [[nodiscard]] PairSearch::Outcome search(FoundPairs& out, const InfinitesimalShift& shift) {
+        out.crossings = operands_;
+        out.crossings.shift = shift;
+        found_ = {};
+        PairSearch::Outcome outcome = search_.run(out.crossings, found_);
+        if (outcome.has_equal) leave_out_equal(out);
+        return outcome;
+    }
+
     [[nodiscard]] InfinitesimalShift first_growth() const {
         InfinitesimalShift shift;
         const Box& b = two_.common;
@@ -276,18 +311,23 @@ private:
                          select(near_, *out.equal, {true, false})};
     }
 
-    void finish(FoundPairs& out) const {
+    [[nodiscard]] FoundPairs finish(FoundPairs& out, EvaluateStats& stats) const {
+        stats += found_;
         for (std::size_t i = 0; out.equal && i < 2; ++i)
             for (std::size_t k = 0; k < near_[i].size(); ++k)
                 if (out.equal->fates[i][k] != Fate::Own)
                     out.crossings.hidden.push_back(out.crossings.number_of(i, near_[i][k]));
         out.crossings.arrange();
+        return std::move(out);
     }
 
     const TwoMeshes& two_;
     const TwoLists& near_;
     const Crossings& operands_;
     PairSearch search_;
+    EvaluateStats found_;  // of the last search
+    bool recognises_equal_ = true;
+    std::shared_ptr<const CornerMoves> moves_;
 };
 
 // What bounds the result and is not crossed, of either mesh, and the first corners of all others in

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include <trisect/kernel/coordinate.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -26,11 +27,19 @@ public:
     using Value = Bounded;
 
     static Length length(Coordinate c) { return c.to_double(); }
+    static Length length(std::int32_t v) { return v; }
     /// a b - c d
     static Area minor(double a, double b, double c, double d) {
         const double p = a * b;
         const double q = c * d;
         return {p - q, minor_rounding * (std::fabs(p) + std::fabs(q))};
+    }
+    static Bounded sum(const Bounded& a, const Bounded& b) {
+        const double v = a.value + b.value;
+        return {v, a.error + b.error + 0x1p-53 * std::fabs(v)};
+    }
+    static Bounded difference(const Bounded& a, const Bounded& b) {
+        return sum(a, {-b.value, b.error});
     }
     static Value dot(const std::array<Area, 3>& n, const std::array<double, 3>& v) {
         Value out;

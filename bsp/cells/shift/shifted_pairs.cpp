@@ -24,145 +24,27 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <type_traits>
 #include <utility>
 
+#include <trisect/bsp/cells/shift/corner_derivatives.h>
+#include <trisect/bsp/cells/shift/corner_passages.h>
 #include <trisect/bsp/cells/shift/near_numbers.h>
-#include <trisect/kernel/number/dyadic.h>
+#include <trisect/bsp/cells/shift/shift_numbers.h>
 #include <trisect/kernel/predicates.h>
-#include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
 
 namespace {
 
-int sign_of(Int128 v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
-template <int N>
-int sign_of(const WideInt<N>& v) {
-    return v.sign();
-}
-
-// What both kinds of integers have in common.
-template <class N>
-struct Integers {
-    template <class Value, class... IsZero>
-    [[nodiscard]] static int sign(const Value& v, const IsZero&...) {
-        return sign_of(v);
-    }
-    template <class Corners, class Normal>
-    static void set_zeros(const Corners&, const Normal&) {}
-    template <class... Any>
-    [[nodiscard]] static bool is_in_plane(const Any&...) {
-        return false;
-    }
-    template <class... Any>
-    [[nodiscard]] static bool do_meet(const Any&...) {
-        return false;
-    }
-    template <class Length>
-    static auto minor(const Length& a, const Length& b, const Length& c, const Length& d) {
-        return N::product(a, b) - N::product(c, d);
-    }
-    template <class Area, class Length>
-    static auto dot(const std::array<Area, 3>& n, const std::array<Length, 3>& v) {
-        typename N::Value sum;
-        for (std::size_t k = 0; k < 3; ++k) sum += N::product(n[k], v[k]);
-        return sum;
-    }
-    // As a double it is off by less than 2^-51 of it.
-    template <class Value>
-    [[nodiscard]] static double to_double(const Value& v) {
-        return v.to_double();
-    }
-    template <class Value>
-    [[nodiscard]] static double error_of(const Value& v) {
-        return 0x1p-51 * std::fabs(v.to_double());
-    }
-    static void leave_open() {}
-};
-
-// Whole coordinates: lengths are below 2^54, products of two below 2^109, and values of planes
-// below 2^165.
-struct WholeNumbers : Integers<WholeNumbers> {
-    using Length = std::int64_t;
-    using Area = Int128;
-    using Value = WideInt<3>;
-
-    static Length length(Coordinate c) { return c.to_integer(); }
-    static Area product(Length a, Length b) { return Int128{a} * b; }
-    static Value product(Area a, Length b) { return multiply<3>(WideInt<2>(a), WideInt<1>(b)); }
-    static WideInt<5> product(Area a, const Value& b) { return multiply<5>(WideInt<2>(a), b); }
-    static WideInt<6> product(const Value& a, const Value& b) { return multiply<6>(a, b); }
-};
-
-// In units of 2^-fraction_limit: lengths are below 2^127, components of normals below 2^255, and
-// values of planes below 3 · 2^381.
-struct Fractions : Integers<Fractions> {
-    using Length = WideInt<2>;
-    using Area = WideInt<4>;
-    using Value = WideInt<6>;
-
-    static Length length(Coordinate c) { return {scaled_integer(c, fraction_limit)}; }
-    static Area product(const Length& a, const Length& b) { return multiply<4>(a, b); }
-    static Value product(const Area& a, const Length& b) { return multiply<6>(a, b); }
-    static WideInt<10> product(const Area& a, const Value& b) { return multiply<10>(a, b); }
-    static WideInt<12> product(const Value& a, const Value& b) { return multiply<12>(a, b); }
-};
-
-template <class N>
-using Lengths = std::array<typename N::Length, 3>;
-template <class N>
-using Normal = std::array<typename N::Area, 3>;
-
-template <class N>
-Lengths<N> lengths(const LatticePoint& p) {
-    return {N::length(p.x), N::length(p.y), N::length(p.z)};
-}
-
-template <class Length>
-std::array<Length, 3> minus(const std::array<Length, 3>& a, const std::array<Length, 3>& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-template <class N>
-Normal<N> cross(const Lengths<N>& u, const Lengths<N>& v) {
-    Normal<N> n{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3;
-        const std::size_t j = (k + 2) % 3;
-        n[k] = N::minor(u[i], v[j], u[j], v[i]);
-    }
-    return n;
-}
-
-template <class N>
-typename N::Value dot(const Normal<N>& n, const Lengths<N>& v) {
-    return N::dot(n, v);
-}
-
-template <class N>
-std::array<int, 3> signs_of(const N& numbers, const Normal<N>& n) {
-    return {numbers.sign(n[0]), numbers.sign(n[1]), numbers.sign(n[2])};
-}
-
-template <class N>
-struct Facet {
-    std::array<Lengths<N>, 3> corners{};
-    Normal<N> normal{};
-
-    explicit Facet(const FacetCorners& points) {
-        for (std::size_t i = 0; i < 3; ++i) corners[i] = lengths<N>(*points[i]);
-        normal = cross<N>(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-        N::set_zeros(corners, normal);
-    }
-    [[nodiscard]] typename N::Value value(const Lengths<N>& p) const {
-        return dot<N>(normal, minus(p, corners[0]));
-    }
-};
+using namespace shifted;
 
 // The shift as derivatives of signs.
 template <class N>
 class Derivatives {
 public:
+    static constexpr bool is_uniform = true;  // the same for all corners of a facet
+
     Derivatives(const N& numbers, const InfinitesimalShift& shift)
         : numbers_(numbers),
           shift_(shift),
@@ -178,6 +60,17 @@ public:
             if (sign != 0) return -g.sign * sign;
         }
         return shift_.along(signs_of(numbers_, facet.normal));
+    }
+    [[nodiscard]] int of_corner(const Facet<N>& first, std::size_t) const {
+        return of_value(first);
+    }
+    [[nodiscard]] int of_plane(const Facet<N>& second, const Lengths<N>&) const {
+        return -of_value(second);
+    }
+    // Of det(p0 - qj, pi - qj, q0 - qj), by corners q of the second facet.
+    [[nodiscard]] int of_edges(const std::array<Lengths<N>, 2>& p,
+                               const std::array<Lengths<N>, 2>& q, std::size_t, std::size_t) const {
+        return of_product(cross<N>(minus(p[1], p[0]), minus(q[1], q[0])), q[0]);
     }
     // Of the product of a vector and a point that is moved.
     [[nodiscard]] int of_product(const Normal<N>& n, const Lengths<N>& point) const {
@@ -199,8 +92,8 @@ private:
     std::array<Growth, 2> growths_;
 };
 
-// The corners of a facet and the plane of another one; `derivative` is the sign of what the shift
-// adds to their values.
+// The corners of a facet and the plane of another one; `derivative` gives the sign of what the
+// shift adds to the value of a corner, the same for all where it is uniform.
 template <class N>
 struct CornerSigns {
     std::array<double, 3> value{};
@@ -209,9 +102,9 @@ struct CornerSigns {
     unsigned on = 0;  // without the shift
     int above = 0;
 
-    template <class Derivative>
+    template <bool IsUniform, class Derivative>
     CornerSigns(const N& numbers, const Facet<N>& plane, const Facet<N>& facet,
-                const Derivative& derivative) {
+                std::bool_constant<IsUniform>, const Derivative& derivative) {
         for (std::size_t i = 0; i < 3; ++i) {
             const typename N::Value v = plane.value(facet.corners[i]);
             value[i] = numbers.to_double(v);
@@ -220,9 +113,12 @@ struct CornerSigns {
                 v, [&] { return N::is_in_plane(facet.corners[i], plane.corners, plane.normal); });
             if (sign[i] == 0) on |= 1U << i;
         }
-        const int moved = on != 0 ? derivative() : 0;
+        int moved = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-            if (sign[i] == 0) sign[i] = moved;
+            if (sign[i] == 0) {
+                if (!IsUniform || moved == 0) moved = derivative(i);
+                sign[i] = moved;
+            }
             above += sign[i] > 0 ? 1 : 0;
         }
     }
@@ -279,6 +175,15 @@ Approximation between(const N& numbers, const std::array<const LatticePoint*, 2>
     return x;
 }
 
+// A bound on it.
+double length_of(const LatticePoint& from, const LatticePoint& to) {
+    const std::array<double, 3> a = from.doubles();
+    const std::array<double, 3> b = to.doubles();
+    double out = 0;
+    for (std::size_t k = 0; k < 3; ++k) out += std::fabs(a[k] - b[k]);
+    return 1.125 * out;
+}
+
 // Where the edge from the lonely corner to corner i goes through the other plane.
 template <class N>
 void set_end(const N& numbers, const FacetCorners& points, const NumberedCorners<N>& t,
@@ -286,12 +191,18 @@ void set_end(const N& numbers, const FacetCorners& points, const NumberedCorners
     end.of_second = of_second;
     end.edge = t.edge_to(i);
     end.corner = -1;
-    const std::size_t from = t.corner[0];
-    const std::size_t to = t.corner[i];
+    std::size_t from = t.corner[0];
+    std::size_t to = t.corner[i];
+    const auto is_on = [&](std::size_t c) { return (sides.on >> c & 1U) != 0; };
+    // Where the edge lies in the plane and its ends go to different sides, any place along it is as
+    // good, but the same for both facets of the edge.
+    const bool is_along = is_on(from) && is_on(to);
+    if (is_along && points[to]->doubles() < points[from]->doubles()) std::swap(from, to);
     for (const std::size_t c : {from, to}) {
-        if ((sides.on >> c & 1U) == 0) continue;
+        if (!is_on(c)) continue;
         end.corner = static_cast<std::int8_t>(c);
         end.at = approximate(*points[c]);
+        if (is_along) end.at.error = length_of(*points[from], *points[to]);
         return;
     }
     end.at = between(numbers, {points[from], points[to]}, {sides.value[from], sides.value[to]},
@@ -317,30 +228,35 @@ bool are_whole(std::initializer_list<const FacetCorners*> facets) {
     });
 }
 
-template <class N>
+template <class N, class Moves>
 ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorners& second,
-                   const InfinitesimalShift& shift) {
+                   const Moves& derivatives) {
     ShiftedPair out;
     const Facet<N> a(first);
     const Facet<N> b(second);
-    const Derivatives<N> derivatives(numbers, shift);
-    if (are_equal(first, second)) {
-        out.kind = ShiftedPair::Kind::Equal;
+    constexpr std::bool_constant<Moves::is_uniform> is_uniform;
+    const CornerSigns<N> of_b(numbers, a, b, is_uniform,
+                              [&](std::size_t i) { return derivatives.of_corner(a, i); });
+    const bool are_corners_equal = are_equal(first, second);
+    if (of_b.on == 7 || are_corners_equal) {
         out.same_side = point_the_same_way(numbers, a.normal, b.normal);
+        out.is_above = of_b.above == 3;
+        out.is_torn = !of_b.is_off();
+    }
+    if (are_corners_equal) {
+        out.kind = ShiftedPair::Kind::Equal;
         return out;
     }
-    const CornerSigns<N> of_b(numbers, a, b, [&] { return derivatives.of_value(a); });
-    if (of_b.on == 7) {
+    if (of_b.on == 7 && !out.is_torn) {
         out.kind = ShiftedPair::Kind::Coplanar;
-        out.is_above = of_b.above == 3;
-        out.same_side = point_the_same_way(numbers, a.normal, b.normal);
         return out;
     }
     if (of_b.is_off()) {
         out.touches = of_b.on != 0;
         return out;
     }
-    const CornerSigns<N> of_a(numbers, b, a, [&] { return -derivatives.of_value(b); });
+    const CornerSigns<N> of_a(numbers, b, a, is_uniform,
+                              [&](std::size_t i) { return derivatives.of_plane(b, a.corners[i]); });
     out.touches = of_b.on != 0 || of_a.on != 0;
     if (of_a.is_off()) {
         out.touches = of_a.on != 0;
@@ -359,7 +275,7 @@ ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorne
                                       [&] { return N::do_meet(p[0], p[i], q[0], q[j]); });
         if (sign != 0) return sign;
         out.touches = true;
-        return derivatives.of_product(cross<N>(minus(p[i], p[0]), minus(q[j], q[0])), q[0]);
+        return derivatives.of_edges({p[0], p[i]}, {q[0], q[j]}, q.corner[0], q.corner[j]);
     };
     // What decides that they are apart decides it without the shift as well, if it does not need
     // it.
@@ -388,6 +304,14 @@ ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorne
     set(out.ends[start], starts < 0, starts < 0 ? 1 : 2);
     set(out.ends[1 - start], ends > 0, ends > 0 ? 2 : 1);
     return out;
+}
+
+template <class N>
+ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorners& second,
+                   const InfinitesimalShift& shift) {
+    return shift.moves == nullptr
+               ? relate(numbers, first, second, Derivatives<N>(numbers, shift))
+               : relate(numbers, first, second, CornerDerivatives<N>(numbers, shift, second));
 }
 
 // Where they are apart, or have only outlines in common, an edge of one of them parts them.
@@ -542,8 +466,25 @@ int side_of_shifted(const FacetCorners& facet, const InfinitesimalShift& shift) 
     });
 }
 
+int side_of_shifted(const FacetCorners& first, const FacetCorners& second,
+                    const InfinitesimalShift& shift) {
+    if (shift.moves == nullptr) return side_of_shifted(first, shift);
+    return in_numbers(are_whole({&first, &second}), [&]<class N>(const N& n) {
+        const CornerDerivatives<N> derivatives(n, shift, second);
+        const Facet<N> plane(first);
+        const int sign = derivatives.of_corner(plane, 0);
+        return sign == derivatives.of_corner(plane, 1) && sign == derivatives.of_corner(plane, 2)
+                   ? sign
+                   : 0;
+    });
+}
+
 std::optional<int> passage_shifted(const LatticePoint& from, const LatticePoint& to, bool is_second,
                                    const FacetCorners& facet, const InfinitesimalShift& shift) {
+    if (shift.moves != nullptr)
+        return are_whole({&facet}) && from.is_whole() && to.is_whole()
+                   ? passage_moved<WholeNumbers>(from, to, is_second, facet, shift)
+                   : passage_moved<Fractions>(from, to, is_second, facet, shift);
     return are_whole({&facet}) && from.is_whole() && to.is_whole() && is_whole(shift)
                ? passage<WholeNumbers>(from, to, is_second, facet, shift)
                : passage<Fractions>(from, to, is_second, facet, shift);
@@ -554,6 +495,9 @@ int order_along_shifted(const LatticePoint& from, const LatticePoint& to, bool i
                         const InfinitesimalShift& shift) {
     const bool whole =
         are_whole({&one, &other}) && from.is_whole() && to.is_whole() && is_whole(shift);
+    if (shift.moves != nullptr)
+        return whole ? order_along_moved<WholeNumbers>(from, to, is_second, {one, other}, shift)
+                     : order_along_moved<Fractions>(from, to, is_second, {one, other}, shift);
     return whole ? order_along<WholeNumbers>(from, to, is_second, one, other, shift)
                  : order_along<Fractions>(from, to, is_second, one, other, shift);
 }

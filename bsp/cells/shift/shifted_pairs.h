@@ -27,9 +27,13 @@ struct ShiftedPair {
         Coplanar,  ///< in one plane, hence apart; `touches` is not set
     };
     Kind kind = Kind::Apart;
-    bool touches = false;    ///< without the shift they may have a point in common otherwise
-    bool is_above = false;   ///< of coplanar ones: the second one is moved above the first one
+    bool touches = false;  ///< without the shift they may have a point in common otherwise
+    bool is_above =
+        false;  ///< of coplanar and equal ones: the second one is moved above the first one
     bool same_side = false;  ///< of those, and of equal ones: they face the same way
+    /// In one plane, of which the second one is moved to both sides; `kind` then is that of any
+    /// others.
+    bool is_torn = false;
     /// Of a crossing, as in FacetCrossing. Places are those without the shift.
     std::array<FacetCrossing::End, 2> ends;
 };
@@ -53,11 +57,17 @@ enum class Overlap : std::uint8_t { None, Outlines, Insides };
 [[nodiscard]] std::array<int, 3> normal_signs(const FacetCorners& facet);
 
 /// 1 where a facet of the other mesh in the plane of this one is moved above it, -1 below it.
+/// Where corners do not move.
 [[nodiscard]] int side_of_shifted(const FacetCorners& facet, const InfinitesimalShift& shift);
+/// The same for two facets of one plane, the second one of the mesh that is moved; 0 where it goes
+/// to both sides.
+[[nodiscard]] int side_of_shifted(const FacetCorners& first, const FacetCorners& second,
+                                  const InfinitesimalShift& shift);
 
 /// Whether the line from one point to another one goes through a facet of the other mesh: 1
-/// upwards, -1 downwards, 0 not at all. Nothing where an edge of the facet is parallel to it and
-/// would touch it. `is_second`: the points are moved.
+/// upwards, -1 downwards, 0 not at all. Where corners move, the line moves with its first point.
+/// Nothing where an edge of the facet is parallel to it and would touch it. `is_second`: the points
+/// are moved.
 [[nodiscard]] std::optional<int> passage_shifted(const LatticePoint& from, const LatticePoint& to,
                                                  bool is_second, const FacetCorners& facet,
                                                  const InfinitesimalShift& shift);
