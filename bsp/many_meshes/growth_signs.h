@@ -12,7 +12,7 @@
 namespace trisect::detail {
 
 /// A choice of 1 or -1 for each operand so that of each two of which something is wanted at least
-/// one does it. One clause of two literals each: B. Aspvall, M. F. Plass, R. E. Tarjan 1979, by
+/// one does it: clauses of two literals, by propagation (Even, Itai, Shamir 1976).
 class GrowthSigns {
 public:
     /// What an operand does that grows: 1 what is wanted, -1 the opposite, 0 nothing.
