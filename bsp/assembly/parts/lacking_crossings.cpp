@@ -67,9 +67,8 @@ private:
         for (const BoundaryEdge& e : edges) {
             const BoundaryFacet& f = facet(e);
             const Plane& p = parts_.bench.plane_at(f.support);
-            auto known = std::ranges::find_if(planes_, [&](const OfPlane& o) {
-                return o.plane == f.support || is_same_plane(parts_.bench.plane_at(o.plane), p);
-            });
+            auto known = std::ranges::find_if(
+                planes_, [&](const OfPlane& o) { return are_one(o.plane, f.support); });
             if (known == planes_.end()) known = planes_.insert(known, {f.support});
             const bool same = same_orientation(parts_.bench.plane_at(known->plane), p) != f.flipped;
             const bool is_up = e.from < e.to;
@@ -83,26 +82,75 @@ private:
         const BoundaryEdge& e = edges[0];
         here_.clear();
         inside_.clear();
-        const auto look_at = [&](std::int32_t number) { return note_facet(number, e); };
-        if (!boxes_->all_around(parts_.bench.approximation(e.from),
-                                parts_.bench.approximation(e.to), look_at))
-            return false;
+        ending_.clear();
+        others_.clear();
+        const auto look_at = [&](std::int32_t number) {
+            note_facet(number, e);
+            return true;
+        };
+        (void)boxes_->all_around(parts_.bench.approximation(e.from),
+                                 parts_.bench.approximation(e.to), look_at);
+        std::erase_if(others_, [&](std::int32_t number) {
+            return std::ranges::any_of(
+                ending_, [&](std::int32_t other) { return are_of_one_face(number, other); });
+        });
+        if (!may_cross()) return true;
+        for (const std::int32_t number : others_)
+            if (!note_inside(number, e)) return false;
         if (cross_straight(here_))
             parts_.crossings.insert(parts_.crossings.end(), inside_.begin(), inside_.end());
         return true;
     }
-    // What a facet has of a segment. False where that is not known.
-    [[nodiscard]] bool note_facet(std::int32_t number, const BoundaryEdge& e) {
-        const Workbench& bench = parts_.bench;
+    // What a facet has of a segment, by its edges. Else it may have it inside, unless another one
+    // of its face ends there.
+    void note_facet(std::int32_t number, const BoundaryEdge& e) {
         const BoundaryFacet& f = parts_.facets[as_index(number)];
-        if (bench.side(e.from, f.support) != 0 || bench.side(e.to, f.support) != 0) return true;
+        const bool is_in_plane = std::ranges::any_of(
+            planes_, [&](const OfPlane& o) { return are_one(o.plane, f.support); });
+        if (!is_in_plane &&
+            (parts_.bench.side(e.from, f.support) != 0 || parts_.bench.side(e.to, f.support) != 0))
+            return;
         int up = 0;
         for (const BoundaryEdge& own : edges_of(number))
             if (ends_of(own) == ends_of(e)) up += own.from < own.to ? 1 : -1;
         if (up != 0) {
             here_.push_back({f.source, f.facet, f.flipped, up > 0});
-            return true;
+            ending_.push_back(number);
+        } else {
+            others_.push_back(number);
         }
+    }
+    // Whether two faces may go straight across: such as are divided there, and others.
+    [[nodiscard]] bool may_cross() const {
+        std::size_t faces = 0;
+        for (std::size_t i = 0; i < ending_.size(); ++i) {
+            bool is_first = true;
+            bool is_divided = false;
+            for (std::size_t j = 0; j < ending_.size(); ++j) {
+                if (i == j || !are_of_one_face(ending_[i], ending_[j])) continue;
+                is_first = is_first && j > i;
+                is_divided = is_divided || here_[i].up != here_[j].up;
+            }
+            faces += is_first && is_divided ? 1 : 0;
+        }
+        for (std::size_t i = 0; i < others_.size() && faces < 2; ++i)
+            faces += std::ranges::none_of(std::span(others_).first(i), [&](std::int32_t other) {
+                return are_of_one_face(others_[i], other);
+            });
+        return faces > 1;
+    }
+    // Whether two facets are parts of one plane and face the same way.
+    [[nodiscard]] bool are_of_one_face(std::int32_t number, std::int32_t other) const {
+        const Workbench& bench = parts_.bench;
+        const BoundaryFacet& f = parts_.facets[as_index(number)];
+        const BoundaryFacet& g = parts_.facets[as_index(other)];
+        return are_one(f.support, g.support) &&
+               same_orientation(bench.plane_at(f.support), bench.plane_at(g.support)) ==
+                   (f.flipped == g.flipped);
+    }
+    // False where that is not known.
+    [[nodiscard]] bool note_inside(std::int32_t number, const BoundaryEdge& e) {
+        const BoundaryFacet& f = parts_.facets[as_index(number)];
         const auto across = plane_across(f.support);
         if (!across) return false;
         const Place place = place_in(number, e, *across);
@@ -134,12 +182,15 @@ private:
         if (turn == 0) return std::nullopt;
         return ((turn > 0) == (way > 0)) != f.flipped;
     }
+    [[nodiscard]] bool are_one(PlaneId a, PlaneId b) const {
+        const Workbench& bench = parts_.bench;
+        return bench.plane_class(a) == bench.plane_class(b) ||
+               is_same_plane(bench.plane_at(a), bench.plane_at(b));
+    }
     // Through the segment, another plane than this one.
     [[nodiscard]] std::optional<PlaneId> plane_across(PlaneId support) const {
         for (const OfPlane& o : planes_)
-            if (o.plane != support &&
-                !is_same_plane(parts_.bench.plane_at(o.plane), parts_.bench.plane_at(support)))
-                return o.plane;
+            if (!are_one(o.plane, support)) return o.plane;
         return std::nullopt;
     }
     // Of a segment in the plane of a facet. It is inside if its line, beyond one of its ends, meets
@@ -253,6 +304,8 @@ private:
     std::vector<OfPlane> planes_;         // of a segment
     std::vector<FacetEdge> here_;         // of a segment
     std::vector<BoundaryEdge> inside_;
+    std::vector<std::int32_t> ending_;  // facets that end there
+    std::vector<std::int32_t> others_;
 };
 
 }  // namespace
