@@ -36,6 +36,12 @@ std::optional<Solid> mapped_region(const Solid& solid, const AffineMap& map) {
     return flat_prism(flat->outlines(), OutlineRule::Positive, flat->low, flat->high, map);
 }
 
+/// As regions of the plane have, and extrusions may.
+bool have_equal_heights(const std::vector<FlatOutlines>& flats) {
+    return std::ranges::all_of(
+        flats, [&](const auto& f) { return f.low == flats[0].low && f.high == flats[0].high; });
+}
+
 Expression joined(const std::vector<Expression>& terms) {
     if (terms.empty()) return Solid();
     return terms.size() == 1 ? terms[0] : Expression::any_of(terms);
@@ -348,27 +354,29 @@ PlaneRegion CsgEvaluator::base_of(std::uint32_t n) {
 
 Expression CsgEvaluator::hull(std::uint32_t n, const CsgFrame& frame) {
     std::vector<Point3d> points;
-    std::vector<Point2d> flats;
-    double low = 0;
-    double high = 1;
+    std::vector<FlatOutlines> flats;
     for (const std::uint32_t c : program_.used_children(n)) {
         if (program_.dimension(c) != 0 && program_.dimension(c) != program_.dimension(n)) continue;
         const Solid solid = solid_of(expression_of(c, {frame.map, frame.low, frame.high}));
-        if (const auto flat = flat_outlines(solid)) {
-            flats.insert(flats.end(), flat->points.begin(), flat->points.end());
-            low = flat->low;
-            high = flat->high;
+        if (auto flat = flat_outlines(solid)) {
+            flats.push_back(*std::move(flat));
             continue;
         }
         const PolygonMesh mesh = solid.to_mesh();
         points.insert(points.end(), mesh.points.begin(), mesh.points.end());
     }
     if (points.empty() && flats.empty()) return Solid();
-    if (points.empty())
-        return tinted(
-            flat_prism(std::array{hull_of_points(flats)}, OutlineRule::Positive, low, high), frame);
-    for (const auto& [x, y] : flats)
-        for (const double z : {low, high}) points.push_back({x, y, z});
+    if (points.empty() && have_equal_heights(flats)) {
+        std::vector<Point2d> corners;
+        for (const FlatOutlines& f : flats)
+            corners.insert(corners.end(), f.points.begin(), f.points.end());
+        return tinted(flat_prism(std::array{hull_of_points(corners)}, OutlineRule::Positive,
+                                 flats[0].low, flats[0].high),
+                      frame);
+    }
+    for (const FlatOutlines& f : flats)
+        for (const auto& [x, y] : f.points)
+            for (const double z : {f.low, f.high}) points.push_back({x, y, z});
     return at_node(n, [&] {
         return placed(n, make_hull(points), {AffineMap(), frame.low, frame.high, frame.color});
     });

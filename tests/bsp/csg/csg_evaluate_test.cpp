@@ -285,6 +285,22 @@ TEST(CsgEvaluate, OfAFlatPolyhedronNothingIsLeft) {
     EXPECT_EQ(volume_of("minkowski() { cube(size = 2);" + flat + "}"), "8");
 }
 
+// They are prisms over regions, each with heights of its own.
+TEST(CsgEvaluate, HullsOfExtrusionsOfDifferentHeights) {
+    const auto extruded = [](const std::string& height, const std::string& size) {
+        return "linear_extrude(height = " + height + ") square(" + size + ", true);";
+    };
+    // A box and a frustum: 100 + 2 (100 + 16 + 40) / 3.
+    EXPECT_EQ(volume_of("hull() {" + extruded("1", "10") + extruded("3", "4") + "}"), "204");
+    EXPECT_EQ(volume_of("hull() {" + extruded("3", "4") + extruded("1", "10") + "}"), "204");
+    EXPECT_EQ(volume_of("hull() {" + extruded("2", "10") + extruded("2", "4") + "}"), "200");
+    EXPECT_EQ(volume_of("hull() {" + extruded("1", "2") +
+                        "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,4],[0,0,0,1]])" +
+                        extruded("1", "2") + "}"),
+              "20");
+    EXPECT_EQ(volume_of("linear_extrude(height = 3) hull() { square(2); square([4, 1]); }"), "21");
+}
+
 int code_of(const std::string& text) {
     try {
         (void)volume_of(text);
