@@ -223,6 +223,7 @@ await trisect.init(undefined, { more: false });
   throwsKind('usage', /trisect-more\.wasm/, () => trisect.interfere(box, null, box, null));
   throwsKind('usage', /trisect-more\.wasm/, () => Solid.fromCsg('cube(1);'));
   throwsKind('usage', /trisect-more\.wasm/, () => new Scene());
+  throwsKind('usage', /trisect-more\.wasm/, () => Solid.halfSpace([0, 0, 1, 0]));
   throwsKind('usage', /trisect-more\.wasm/, () => box.exactText);
   throwsKind('usage', /trisect-more\.wasm/, () => box.split([0, 0, 1, -0.5]));
   await trisect.init();

@@ -10,8 +10,8 @@ export interface InitOptions {
 }
 /**
  * Loads the module, by default trisect.wasm beside the script, and the second one. Await it once, before anything else is
- * called. Solids, booleans, meshes, measures, points, rays and sections are in the first module: with { more: false } they
- * work when less is loaded, all else fails with 'usage', and a later init() adds it.
+ * called. Solids, booleans, meshes, measures, points and sections are in the first module: with { more: false } they work
+ * when less is loaded, all else fails with 'usage', and a later init() adds it.
  */
 export function init(source?: ModuleSource, options?: InitOptions): Promise<void>;
 /** Of the library, as "0.1.0". */
