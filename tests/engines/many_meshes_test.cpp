@@ -340,8 +340,8 @@ TEST(ManyMeshes, ConstantsAreLeftOut) {
         solids.push_back(
             engines::solid(reference::box({x, 0, 0}, {x + 4, 4, 4}), trisect::Embedding::Assume));
     const trisect::Expression all = trisect::Expression::any_of({solids[0], solids[1], solids[2]});
-    const auto left = trisect::detail::translate_without_constants(
-        (all | trisect::Solid()) & trisect::Solid::whole_space());
+    const auto left = trisect::detail::translate_without_constants((all | trisect::Solid()) &
+                                                                   trisect::Solid::whole_space());
     EXPECT_EQ(left.slots.size(), 3U);
     EXPECT_EQ(trisect::detail::translate_without_constants(trisect::Solid()).slots.size(), 1U);
     EXPECT_EQ(trisect::volume(trisect::evaluate(all | trisect::Solid())), 160);
