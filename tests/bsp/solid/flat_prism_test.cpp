@@ -4,6 +4,8 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/point_2d.h>
 #include <trisect/brep/validate/validate.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/evaluate/flat_formula.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
@@ -16,6 +18,7 @@
 
 #include <array>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace trisect {
@@ -141,6 +144,11 @@ TEST(FlatPrism, CrossingsAreMadeOfMeshes) {
     EXPECT_FALSE(detail::over_prisms(detail::translate(base | sign)).has_value());
     const Solid result = evaluate(formula);
     expect_valid(result);
+    // Pair by pair, and the mesh did not take the tree.
+    const auto state = detail::state_of(result);
+    EXPECT_TRUE(std::holds_alternative<detail::UndividedMeshes>(state->form));
+    ASSERT_NE(state->lazy_tree(), nullptr);
+    EXPECT_FALSE(state->lazy_tree()->is_cut());
     const Expression as_written = (base | (sign - bar)) - peg;
     EXPECT_TRUE(evaluate(result ^ as_written).is_empty());
     EXPECT_EQ(exact(result), exact(evaluate(as_written)));
