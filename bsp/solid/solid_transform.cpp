@@ -295,12 +295,13 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
     for (std::uint32_t t = 0; t < imported.mesh.triangles.size(); ++t)
         faces.push_back(number[imported.mesh.face_of(t)]);
     imported.mesh.face_of_triangle = std::move(faces);
-    // Triangles that rounding made flat are gone, and their corners lie inside edges of others.
+    // Where triangles that rounding made flat are gone, fronts and backs may be left. The sum over
+    // the triangles is asked, not the boundary of the set: they may meet each other.
+    if (are_gone && exact_volume(imported.mesh).sign() == 0)
+        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    // Corners of triangles that are gone lie inside edges of others.
     StatePtr out = state_of(std::move(imported.mesh), imported.report.t_edges != 0,
                             solid.source_id(), std::move(names), is_complement);
-    // Fronts and backs may be left.
-    if (are_gone && exact_volume(detail::solid_of(out).to_exact_mesh()).sign() == 0)
-        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
     return out;
 }
 

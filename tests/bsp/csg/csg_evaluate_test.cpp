@@ -301,6 +301,30 @@ TEST(CsgEvaluate, HullsOfExtrusionsOfDifferentHeights) {
     EXPECT_EQ(volume_of("linear_extrude(height = 3) hull() { square(2); square([4, 1]); }"), "21");
 }
 
+// A wall of the sheared rack is a hair from a side of the block. Rounded, the turned group meets
+// itself, and triangles are gone.
+TEST(CsgEvaluate, ATurnedGroupOfAlmostFlushWallsMeetsItself) {
+    const std::string rack =
+        "multmatrix([[1,0,0,62.8318],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"
+        "multmatrix([[1,0,1,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"
+        "linear_extrude(height = 10) polygon([[0,-1.16667],[2.40013,-0.16576],[1.94794,0.65989],"
+        "[1.40362,1],[1.19365,0.65989],[1.01584,0.354214],[0,-1.44136]]);";
+    const std::string block =
+        "multmatrix([[1,0,0,10],[0,1,0,-5],[0,0,1,0],[0,0,0,1]]) cube([60, 3.83333, 10]);";
+    const std::string turn =
+        "multmatrix([[0.5,0.866025,0,0],[-0.866025,0.5,0,0],[0,0,1,0],[0,0,0,1]])";
+    const std::string place =
+        "multmatrix([[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]])"
+        "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,10],[0,0,0,1]])"
+        "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,-1,0],[0,0,0,1]])"
+        "multmatrix([[1,0,0,-39.2699],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
+    const std::string group = "intersection() {" + rack + block + "}";
+    const Solid turned = evaluate_csg(parse_csg(turn + place + group, "turned.csg"));
+    // Entries of the matrix have six digits: 0.25 + 0.866025^2.
+    const double before = volume(evaluate_csg(parse_csg(group, "group.csg")));
+    EXPECT_NEAR(volume(turned), before * 0.999999300625, 1e-11);
+}
+
 int code_of(const std::string& text) {
     try {
         (void)volume_of(text);
