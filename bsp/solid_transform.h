@@ -22,8 +22,10 @@ namespace trisect {
 /// Another translation is rounded as a whole, so that the solid stays congruent: every vertex moves
 /// by less than half a unit. Under any other map, or where coordinates have fractions, vertices are
 /// rounded to the user's doubles one by one, once, from exact positions; planar faces of more than
-/// three corners fall apart into triangles, and where rounding made the boundary meet itself it is
-/// resolved by what comes next.
+/// three corners fall apart into triangles. Where that makes the boundary meet itself, corners that
+/// an edge of up to 4 (or else 16) units in the last place of the largest coordinate connects
+/// become one, and triangles as thin are joined with neighbours, if it meets itself no more then;
+/// otherwise it is resolved by what comes next.
 ///
 /// `report` is overwritten. O(n). To ask how moving solids lie to each other use poses as they are
 /// (bsp/interference): nothing is rounded there.

@@ -12,10 +12,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include <trisect/brep/embedding_findings.h>
+#include <trisect/brep/import/thin_triangles.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/measure/exact_values.h>
@@ -269,16 +271,44 @@ StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
     return state;
 }
 
-StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
-    const SolidState& state = *detail::state_of(solid);
-    const bool is_complement = state.far_out == 1;
-    const ExactMesh mesh = solid.to_exact_mesh();
-    if (state.far_out < 0 && exact_volume(mesh).sign() < 0)
-        throw UnsupportedError("an unbounded set of half-spaces cannot be moved off the lattice");
-    const bool turn_over = pose.is_mirror() != is_complement;
-    ImportedMesh imported = import_mesh(rounded_mesh(mesh, pose, turn_over, report));
+// A rounded boundary; the numbers of triangles before it that its own are parts of.
+struct RoundedMesh {
+    PolygonMesh mesh;
+    std::vector<std::uint32_t> origin;
+};
+
+// Without triangles thinner than so many units in the last place of the largest coordinate; how far
+// a corner moved at most is added to the report.
+RoundedMesh without_thin(const PolygonMesh& mesh, double units, LatticeReport* report) {
+    double largest = 0;
+    for (const Point3d& p : mesh.points)
+        for (const double c : p) largest = std::max(largest, std::fabs(c));
+    std::vector<std::array<std::uint32_t, 3>> triangles(mesh.face_count());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        std::ranges::copy(mesh.face(t), triangles[t].begin());
+    detail::TrianglesWithoutThin thick =
+        detail::without_thin_triangles(mesh.points, triangles, units * 0x1p-52 * largest);
+    RoundedMesh out{{mesh.points, {0}, {}}, std::move(thick.origin)};
+    for (const auto& t : thick.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
+    double move = 0;
+    for (std::size_t p = 0; p < mesh.points.size(); ++p)
+        for (std::size_t i = 0; i < 3; ++i)
+            move = std::max(move, std::fabs(mesh.points[p][i] - mesh.points[thick.point[p]][i]));
+    if (report != nullptr) report->max_move += move;
+    return out;
+}
+
+// Nothing where no triangle is left.
+StatePtr imported(const RoundedMesh& rounded, const ExactMesh& before, const Solid& solid,
+                  bool is_complement, LatticeReport* report) {
+    ImportedMesh made = import_mesh(rounded.mesh);
+    // Where triangles that rounding made flat are gone, fronts and backs may be left. The sum over
+    // the triangles is asked, not the boundary of the set: they may meet each other.
+    if (made.mesh.triangles.empty() || (made.mesh.triangles.size() < before.triangles.size() &&
+                                        exact_volume(made.mesh).sign() == 0))
+        return nullptr;
     if (report != nullptr) {
-        const LatticeReport& import = imported.report.lattice;
+        const LatticeReport& import = made.report.lattice;
         report->lattice = import.lattice;
         if (!import.lossless) {  // more than 126 bits
             report->lossless = false;
@@ -286,22 +316,41 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
             report->max_move += import.max_move;
         }
     }
-    if (imported.mesh.triangles.empty())
-        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
-    const bool are_gone = imported.mesh.triangles.size() < mesh.triangles.size();
-    auto [names, number] = numbered(mesh.source);
+    auto [names, number] = numbered(before.source);
     std::vector<std::uint32_t> faces;
-    faces.reserve(imported.mesh.triangles.size());
-    for (std::uint32_t t = 0; t < imported.mesh.triangles.size(); ++t)
-        faces.push_back(number[imported.mesh.face_of(t)]);
-    imported.mesh.face_of_triangle = std::move(faces);
-    // Where triangles that rounding made flat are gone, fronts and backs may be left. The sum over
-    // the triangles is asked, not the boundary of the set: they may meet each other.
-    if (are_gone && exact_volume(imported.mesh).sign() == 0)
-        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    faces.reserve(made.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < made.mesh.triangles.size(); ++t)
+        faces.push_back(number[rounded.origin[made.mesh.face_of(t)]]);
+    made.mesh.face_of_triangle = std::move(faces);
     // Corners of triangles that are gone lie inside edges of others.
-    StatePtr out = state_of(std::move(imported.mesh), imported.report.t_edges != 0,
-                            solid.source_id(), std::move(names), is_complement);
+    return state_of(std::move(made.mesh), made.report.t_edges != 0, solid.source_id(),
+                    std::move(names), is_complement);
+}
+
+StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
+    const SolidState& state = *detail::state_of(solid);
+    const bool is_complement = state.far_out == 1;
+    const ExactMesh mesh = solid.to_exact_mesh();
+    if (state.far_out < 0 && exact_volume(mesh).sign() < 0)
+        throw UnsupportedError("an unbounded set of half-spaces cannot be moved off the lattice");
+    const bool turn_over = pose.is_mirror() != is_complement;
+    RoundedMesh there{rounded_mesh(mesh, pose, turn_over, report), {}};
+    there.origin.resize(mesh.triangles.size());
+    std::iota(there.origin.begin(), there.origin.end(), 0U);
+    const LatticeReport before = report == nullptr ? LatticeReport() : *report;
+    const StatePtr out = imported(there, mesh, solid, is_complement, report);
+    if (out == nullptr)
+        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    if (out->embedded) return out;
+    // Thin triangles that were turned over meet their neighbours.
+    for (const double units : {4.0, 16.0}) {
+        LatticeReport other = before;
+        const RoundedMesh thick = without_thin(there.mesh, units, &other);
+        const StatePtr embedded = imported(thick, mesh, solid, is_complement, &other);
+        if (embedded == nullptr || !embedded->embedded) continue;
+        if (report != nullptr) *report = other;
+        return embedded;
+    }
     return out;
 }
 

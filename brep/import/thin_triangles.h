@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Removal of triangles that are thinner than the rounding of their corners.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/kernel/point3d.h>
+
+namespace trisect::detail {
+
+struct TrianglesWithoutThin {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> origin;  ///< by triangle: the one before whose face it is part of
+    /// By point: the one that it became, which is a fixed point.
+    std::vector<std::uint32_t> point;
+};
+
+/// A closed triangulation without triangles that are thinner than `width`, as far as that goes.
+///
+/// Rounding turns such triangles over, and then they meet their neighbours. Points at the ends of
+/// an edge that is not longer than `width` become one, the first of them. A triangle whose height
+/// over its longest edge is not more than that gives that edge up: it and its neighbour across it
+/// are divided by the other diagonal. No point moves otherwise, and what was closed stays closed:
+/// each step adds the boundary of a tetrahedron, or maps points to points. Whether the result meets
+/// itself is not looked at. Decided in doubles; the same input gives the same result. O(n log n).
+[[nodiscard]] TrianglesWithoutThin without_thin_triangles(
+    std::span<const Point3d> points, std::span<const std::array<std::uint32_t, 3>> triangles,
+    double width);
+
+}  // namespace trisect::detail
