@@ -133,6 +133,9 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
                       "interrupted; only what changed is evaluated");
     command->add_flag("--missing-files-empty", options.missing_files_are_empty,
                       "a file that is not there is an empty set, with a remark, not an error");
+    command->add_flag("--keep-going", options.keep_going,
+                      "shapes that are refused are left out, with a remark, and so are missing "
+                      "files");
     command->add_flag("!--no-certificate", options.certificate,
                       "do not check the rounded result for self-intersection; --watch never does");
     command->add_flag("--summary", options.summary,
@@ -210,7 +213,8 @@ std::string said_of(const Session& session, const Json& before, const ChangeRepo
 Outcome watch(Session& session, const EvalOptions& options) {
     CsgOptions how;
     how.evaluate = session.evaluation_options(OperandOptions());
-    how.missing_files_are_empty = options.missing_files_are_empty;
+    how.missing_files_are_empty = options.missing_files_are_empty || options.keep_going;
+    how.leaves_out_refused = options.keep_going;
     how.keeps_colors =
         is_mesh(options.output) && holds_colors(output_format(session, options.output));
     CsgSession kept(how);
@@ -258,7 +262,8 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
     const Solid solid = session.interruptible_stage("evaluate", [&] {
         CsgOptions how;
         how.evaluate = session.evaluation_options(OperandOptions());
-        how.missing_files_are_empty = options.missing_files_are_empty;
+        how.missing_files_are_empty = options.missing_files_are_empty || options.keep_going;
+        how.leaves_out_refused = options.keep_going;
         how.keeps_colors = keeps_colors(session, options, tree);
         return evaluate_csg(tree, how, &report);
     });

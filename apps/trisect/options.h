@@ -218,6 +218,7 @@ struct EvalOptions {
     bool summary = false;
     bool watch = false;
     bool missing_files_are_empty = false;
+    bool keep_going = false;
     bool certificate = true;
 };
 

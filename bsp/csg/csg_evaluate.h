@@ -28,6 +28,10 @@ struct CsgOptions {
     bool reads_files = true;  ///< otherwise import() and surface() are refused
     /// A file that is not there is an empty set, with a remark, as in OpenSCAD; otherwise an error.
     bool missing_files_are_empty = false;
+    /// A node that is refused (Input, InvalidSolid, Unsupported) is an empty set, with a remark; so
+    /// is all below a matrix that is refused. Names of nodes that are not known, and limits, end
+    /// the evaluation all the same.
+    bool leaves_out_refused = false;
     /// Whether the report has colours of faces; shapes of two colours are two operands then.
     bool keeps_colors = false;
 };

@@ -71,8 +71,11 @@ Expression CsgEvaluator::kept_formula(std::uint32_t n, const CsgFrame& frame, co
 }
 
 void CsgEvaluator::remark(std::uint32_t n, const std::string& text) {
-    if (report_.remarks.size() < most_remarks)
-        report_.remarks.push_back(program_.place(n) + ": " + text);
+    remark(program_.place(n) + ": " + text);
+}
+
+void CsgEvaluator::remark(std::string text) {
+    if (report_.remarks.size() < most_remarks) report_.remarks.push_back(std::move(text));
 }
 
 Solid CsgEvaluator::solid_of(const Expression& formula) {
@@ -88,9 +91,22 @@ std::vector<Expression> CsgEvaluator::terms_of(const std::vector<std::uint32_t>&
             remark(n, "left out, since it is of another dimension than what is before it");
             continue;
         }
-        out.push_back(expression_of(n, frame));
+        out.push_back(expression_or_empty(n, frame));
     }
     return out;
+}
+
+Expression CsgEvaluator::expression_or_empty(std::uint32_t n, const CsgFrame& frame) {
+    if (!options_.leaves_out_refused) return expression_of(n, frame);
+    try {
+        return expression_of(n, frame);
+    } catch (const CsgError& e) {
+        if (e.code() != ErrorCode::Input && e.code() != ErrorCode::InvalidSolid &&
+            e.code() != ErrorCode::Unsupported)
+            throw;
+        remark(std::string("left out: ") + e.what());
+        return Solid();
+    }
 }
 
 Expression CsgEvaluator::any_of(const std::vector<std::uint32_t>& children, int dimension,

@@ -35,6 +35,7 @@ public:
 
 private:
     void remark(std::uint32_t n, const std::string& text);
+    void remark(std::string text);
     [[nodiscard]] Solid solid_of(const Expression& formula);
 
     // Formulas of nodes.
@@ -46,6 +47,7 @@ private:
     [[nodiscard]] Solid tinted(const Solid& solid, const CsgFrame& frame);
     [[nodiscard]] Expression children_of(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression expression_of(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression expression_or_empty(std::uint32_t n, const CsgFrame& frame);
     template <class Make>
     [[nodiscard]] Expression kept_formula(std::uint32_t n, const CsgFrame& frame, const Make& make);
     [[nodiscard]] Expression difference(std::uint32_t n, const CsgFrame& frame);

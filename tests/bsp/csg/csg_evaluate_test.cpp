@@ -245,6 +245,22 @@ TEST_F(CsgFiles, MissingFilesAreErrorsUnlessTheyMayBeEmpty) {
     EXPECT_FALSE(report.remarks.empty());
 }
 
+TEST_F(CsgFiles, RefusedShapesAreErrorsUnlessTheyMayBeLeftOut) {
+    const CsgTree tree = parse_csg(
+        "cube(size = 1);"
+        "polyhedron(points = undef, faces = [[0, 1, 2]], convexity = 1);"
+        "multmatrix([[1,0,0,nan],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) cube(size = 3);"
+        "difference() { cube(size = 2); polyhedron(points = [[0,0,0],[1,0,0],[0,1,0]], faces = "
+        "[[0, 1, 2]]); }",
+        "f");
+    EXPECT_THROW((void)evaluate_csg(tree), CsgError);
+    CsgOptions options;
+    options.leaves_out_refused = true;
+    CsgReport report;
+    EXPECT_EQ(exact_volume(evaluate_csg(tree, options, &report)).to_string(), "8");
+    EXPECT_EQ(report.remarks.size(), 3U);
+}
+
 TEST_F(CsgFiles, TheGroundOfHeightsIsAtZeroOrBelow) {
     const std::string high = write("trisect_high.dat", "5 5\n5 5\n");
     EXPECT_EQ(volume_of("surface(file = \"" + high + "\");"), "5");
