@@ -23,6 +23,7 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/nearest_float.h>
 
 namespace trisect {
 namespace {
@@ -110,7 +111,7 @@ void measure_moves(std::span<const Point> exact, Lattice lattice, const PolygonM
 
 void round_to_floats(PolygonMesh& mesh) {
     for (Point3d& p : mesh.points) {
-        for (double& c : p) c = static_cast<double>(static_cast<float>(c));
+        for (double& c : p) c = detail::nearest_float(c);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <trisect/brep/io/properties/distinct_rows.h>
 #include <trisect/brep/io/property_colors.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/support/nearest_float.h>
 
 #include <algorithm>
 #include <array>
@@ -53,7 +54,7 @@ private:
     [[nodiscard]] double in_float(double value) const {
         if (std::fabs(value) > static_cast<double>(std::numeric_limits<float>::max()))
             throw LimitError(name_ + ": cannot write: a property beyond the range of GLB (floats)");
-        return static_cast<double>(static_cast<float>(value));
+        return detail::nearest_float(value);
     }
 
     [[nodiscard]] bool take(std::optional<std::size_t> column, std::size_t width,
