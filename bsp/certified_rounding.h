@@ -30,7 +30,7 @@ struct CertifiedRounding {
     enum class Outcome : std::uint8_t {
         Plain,     ///< correctly rounded coordinates, as to_polygon_mesh gives them, are certified
         Gridded,   ///< all coordinates rounded to multiples of one unit are
-        Repaired,  ///< faces were divided where they touch, or intersections resolved and snapped
+        Repaired,  ///< mended_rounding(), or intersections resolved and snapped
         Failed     ///< nothing is proved about `mesh` but `radius`
     };
 
@@ -49,7 +49,7 @@ struct CertifiedRounding {
     std::size_t first_pairs = 0;
 };
 
-/// Plain rounding first, then divided_at_contacts(). Where the check cannot decide (coordinates
+/// Plain rounding first, then mended_rounding(). Where the check cannot decide (coordinates
 /// that span more bits than the exact check has) or finds something, coordinates are rounded to
 /// multiples of one unit, 2^-38 of the largest one or finer: on that grid the check is exact, and
 /// an import changes nothing. What still meets is resolved as a boundary that may intersect itself,
@@ -63,12 +63,14 @@ struct CertifiedRounding {
 [[nodiscard]] CertifiedRounding certified_rounding(const Brep& brep,
                                                    const RoundingOptions& options = {});
 
-/// A mesh divided where its edges lie in its faces.
-struct DividedContacts {
+/// A rounded mesh whose triangles met, and do so no more.
+struct MendedRounding {
     PolygonMesh mesh;
     std::vector<std::uint32_t> parents;  ///< of each triangle: the one that it is a part of
     Certificate certificate;             ///< holds
     double radius = 0;                   ///< as in CertifiedRounding; rounding included
+    bool gave_thin_up = false;           ///< triangles thinner than the rounding
+    std::size_t divided = 0;             ///< triangles more, since edges lie in faces
 };
 
 /// Where an edge of the exact solid lies inside a face of it (a roof that stands on its ridge), the
@@ -77,7 +79,17 @@ struct DividedContacts {
 /// precision of doubles. Nothing where that does not lead to a certified mesh, or more than 4,096
 /// pairs of faces meet. Costs a validation or two a pass, and some passes.
 /// \pre all faces are triangles, and `certificate` is theirs at this precision.
-[[nodiscard]] std::optional<DividedContacts> divided_at_contacts(
+[[nodiscard]] std::optional<MendedRounding> divided_at_contacts(
+    const PolygonMesh& mesh, const Certificate& certificate,
+    Precision precision = Precision::Double);
+
+/// The first of these that leads to a certified mesh: triangles thinner than 4, or else 16, units
+/// in the last place of the largest coordinate are given up (their corners become one, or they are
+/// joined with neighbours), as rounding turns them over; divided_at_contacts(); both. Nothing where
+/// none does, or where it is not known whether the mesh meets itself. Costs up to three validations
+/// and what divided_at_contacts() does.
+/// \pre as there
+[[nodiscard]] std::optional<MendedRounding> mended_rounding(
     const PolygonMesh& mesh, const Certificate& certificate,
     Precision precision = Precision::Double);
 

@@ -34,7 +34,7 @@ struct BooleanResult {
     WriteReport written;
     std::optional<Certificate> certificate;
     std::optional<CertifiedRounding> rounding;
-    std::size_t divided = 0;  ///< triangles more, since edges lie in faces
+    std::optional<Mending> mending;
     EvaluateReport report;
     EvaluateCounters counters;
     Json properties;  ///< what the output has; null: not asked for
@@ -68,14 +68,12 @@ void note_uneven(Session& session, const BooleanOptions& options, const PolygonM
         options.output, uneven));
 }
 
-/// Triangles that edges lie in, where a certificate found that. Whether there are any.
-bool divide_contacts(PolygonMesh& mesh, std::vector<FaceSource>& sources, MeshFormat format,
-                     BooleanResult& result) {
-    const std::size_t before = mesh.face_count();
-    if (!result.certificate || !divide_output(mesh, sources, *result.certificate, format))
-        return false;
-    result.divided = mesh.face_count() - before;
-    return true;
+/// Triangles that meet, where a certificate found some. Whether there were any.
+bool mend_contacts(PolygonMesh& mesh, std::vector<FaceSource>& sources, MeshFormat format,
+                   BooleanResult& result) {
+    if (result.certificate)
+        result.mending = mend_output(mesh, sources, *result.certificate, format);
+    return result.mending.has_value();
 }
 
 /// Channels of corners, materials and pictures.
@@ -118,7 +116,7 @@ void deliver_brep(Session& session, const BooleanOptions& options,
         session.stage("certify", [&] {
             result.certificate = certify_output(brep, mesh, format);
             // Faces of STEP are written as they are.
-            if (format != MeshFormat::Step) divide_contacts(mesh, map.source, format, result);
+            if (format != MeshFormat::Step) mend_contacts(mesh, map.source, format, result);
         });
     }
     session.stage("write", [&] {
@@ -172,7 +170,7 @@ void deliver_mesh(Session& session, const BooleanOptions& options,
                     exact, [&] { return solid.to_brep(); }, description_options(session, options));
         });
         result.description.lattice = result.report.lattice;
-        if (divide_contacts(mesh, exact.source, format, result)) formatted = format_mesh();
+        if (mend_contacts(mesh, exact.source, format, result)) formatted = format_mesh();
     });
     session.stage("write",
                   [&] { result.written = write_output_mesh(session, options.output, formatted); });
@@ -215,7 +213,8 @@ Json document_of(const Session& session, const BooleanOptions& options,
     }
     document["seconds"] = session.seconds();
     document["certificate"] = result.certificate ? to_json(*result.certificate) : Json();
-    document["divided"] = result.divided;
+    document["divided"] = result.mending ? result.mending->divided : 0;
+    document["mended"] = to_json(result.mending);
     document["repair"] = result.rounding ? to_json(*result.rounding) : Json();
     document["cells"]["visited"] = result.counters.cells;
     document["cells"]["shared"] = result.counters.shared_cells;
@@ -236,9 +235,7 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
         if (!options.repair && !result.certificate->holds())
             out += fmt::format("{:<13}--repair moves vertices until it is certified\n", "");
     }
-    if (result.divided > 0)
-        out += fmt::format("{:<13}edges lie in faces: these have {} triangles more\n", "divided",
-                           result.divided);
+    if (result.mending) out += fmt::format("{:<13}{}\n", "mended", to_text(*result.mending));
     if (result.rounding) out += fmt::format("{:<13}{}\n", "rounding", to_text(*result.rounding));
     double total = 0;
     for (const auto& seconds : session.seconds()) total += seconds.get<double>();

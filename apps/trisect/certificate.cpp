@@ -46,20 +46,20 @@ Certificate certify_output(const ExactMesh& exact, PolygonMesh mesh, MeshFormat 
     return certify(exact, std::move(mesh), precision_of(format));
 }
 
-bool divide_output(PolygonMesh& mesh, std::vector<FaceSource>& sources, Certificate& certificate,
-                   MeshFormat format) {
-    if (certificate.holds()) return false;
-    std::optional<DividedContacts> divided =
-        divided_at_contacts(mesh, certificate, precision_of(format));
-    if (!divided) return false;
-    mesh = std::move(divided->mesh);
-    certificate = divided->certificate;
-    if (sources.empty()) return true;
-    std::vector<FaceSource> of_parts;
-    of_parts.reserve(divided->parents.size());
-    for (const std::uint32_t parent : divided->parents) of_parts.push_back(sources[parent]);
-    sources = std::move(of_parts);
-    return true;
+std::optional<Mending> mend_output(PolygonMesh& mesh, std::vector<FaceSource>& sources,
+                                   Certificate& certificate, MeshFormat format) {
+    if (certificate.holds()) return std::nullopt;
+    std::optional<MendedRounding> mended = mended_rounding(mesh, certificate, precision_of(format));
+    if (!mended) return std::nullopt;
+    mesh = std::move(mended->mesh);
+    certificate = mended->certificate;
+    if (!sources.empty()) {
+        std::vector<FaceSource> of_parts;
+        of_parts.reserve(mended->parents.size());
+        for (const std::uint32_t parent : mended->parents) of_parts.push_back(sources[parent]);
+        sources = std::move(of_parts);
+    }
+    return Mending{mended->divided, mended->gave_thin_up, mended->radius};
 }
 
 CertifiedRounding round_output(const Brep& brep, MeshFormat format,
@@ -89,6 +89,20 @@ std::string to_text(const CertifiedRounding& r) {
         out += fmt::format("; {} pairs of faces met, {} rounds, {} vertices snapped", r.first_pairs,
                            r.rounds, r.snapped_vertices);
     return out;
+}
+
+Json to_json(const std::optional<Mending>& mending) {
+    Json out;
+    if (mending) out["radius"] = mending->radius;
+    return out;
+}
+
+std::string to_text(const Mending& mending) {
+    std::string out;
+    if (mending.gave_thin_up) out = "triangles thinner than the rounding are given up; ";
+    if (mending.divided > 0)
+        out += fmt::format("edges lie in faces: these have {} triangles more; ", mending.divided);
+    return out + fmt::format("the set moved by at most {}", number_text(mending.radius));
 }
 
 Json to_json(const Certificate& c) {

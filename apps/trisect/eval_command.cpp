@@ -38,12 +38,12 @@ CsgTree read_program(const std::string& name) {
 /// Of the mesh that is written.
 struct EvalCertificate {
     std::optional<Certificate> certificate;
-    std::size_t divided = 0;  ///< triangles more, since edges lie in faces
+    std::optional<Mending> mending;
 };
 
 bool is_mesh(const std::string& output) { return !has_lossless_name(output); }
 
-/// Checks the triangles as the format holds them, and divides those that edges lie in. Faces of
+/// Checks the triangles as the format holds them, and mends those that meet. Faces of
 /// STEP are written as they are.
 EvalCertificate certified(const Session& session, const EvalOptions& options, ExactMesh& exact,
                           PolygonMesh& mesh) {
@@ -52,9 +52,7 @@ EvalCertificate certified(const Session& session, const EvalOptions& options, Ex
     const MeshFormat format = output_format(session, options.output);
     out.certificate = certify_output(exact, mesh, format);
     if (format == MeshFormat::Step) return out;
-    const std::size_t before = mesh.face_count();
-    if (divide_output(mesh, exact.source, *out.certificate, format))
-        out.divided = mesh.face_count() - before;
+    out.mending = mend_output(mesh, exact.source, *out.certificate, format);
     return out;
 }
 
@@ -162,9 +160,7 @@ Json document_of(const EvalOptions& options, const CsgReport& report) {
 void say_certificate(Session& session, const EvalOptions& options, const EvalCertificate& made) {
     if (made.certificate && !made.certificate->holds())
         session.note(options.output + ": certified " + to_text(*made.certificate));
-    if (made.divided > 0)
-        session.note(fmt::format("{}: edges lie in faces: these have {} triangles more",
-                                 options.output, made.divided));
+    if (made.mending) session.note(options.output + ": " + to_text(*made.mending));
 }
 
 void say_remarks(Session& session, const CsgReport& report) {
@@ -283,7 +279,8 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         "certify", [&] { return certified(session, options, mesh, rounded); });
     say_certificate(session, options, made);
     out.document["certificate"] = made.certificate ? to_json(*made.certificate) : Json();
-    out.document["divided"] = made.divided;
+    out.document["divided"] = made.mending ? made.mending->divided : 0;
+    out.document["mended"] = to_json(made.mending);
     session.stage("write", [&] {
         write_result(session, options.output, solid, rounded, mesh.source, report);
     });

@@ -30,7 +30,7 @@ class ThinTriangles {
 public:
     ThinTriangles(std::span<const Point3d> points, std::span<const Triangle> triangles,
                   double width)
-        : points_(points), square_width_(width * width) {
+        : points_(points), width_(width), square_width_(width * width), depth_{0} {
         out_.point.resize(points.size());
         std::iota(out_.point.begin(), out_.point.end(), 0U);
         merge_points(triangles);
@@ -53,6 +53,7 @@ public:
             kept.origin.push_back(out_.origin[t]);
         }
         kept.point = std::move(out_.point);
+        kept.reach = static_cast<double>(*std::max_element(depth_.begin(), depth_.end())) * width_;
         return kept;
     }
 
@@ -89,6 +90,7 @@ private:
         out_.triangles.push_back(corners);
         out_.origin.push_back(origin);
         is_gone_.push_back(false);
+        depth_.push_back(0);
         return static_cast<std::uint32_t>(out_.triangles.size() - 1);
     }
 
@@ -199,8 +201,11 @@ private:
         disconnect(t);
         disconnect(other);
         if (top == bottom) return true;  // a front and its back
-        connect(add({a, bottom, top}, origin));
-        connect(add({bottom, b, top}, origin));
+        const int depth = std::max(depth_[t + 1], depth_[other + 1]) + 1;
+        for (const Triangle& made : {Triangle{a, bottom, top}, Triangle{bottom, b, top}}) {
+            connect(add(made, origin));
+            depth_.back() = depth;
+        }
         return true;
     }
 
@@ -209,7 +214,11 @@ private:
     }
 
     std::span<const Point3d> points_;
+    double width_;
     double square_width_;
+    /// By triangle, after the first entry: a flip adds a tetrahedron around a thin triangle, which
+    /// is within the width of the other one; this many of them at most lie on each other.
+    std::vector<int> depth_;
     TrianglesWithoutThin out_;
     std::vector<bool> is_gone_;
     std::unordered_map<std::uint64_t, Left> left_;

@@ -17,6 +17,9 @@ struct TrianglesWithoutThin {
     std::vector<std::uint32_t> origin;  ///< by triangle: the one before whose face it is part of
     /// By point: the one that it became, which is a fixed point.
     std::vector<std::uint32_t> point;
+    /// What the triangles that were flipped bounded on one side alone, before or after, is not
+    /// farther than this from the boundary of the others, whose points have moved.
+    double reach = 0;
 };
 
 /// A closed triangulation without triangles that are thinner than `width`, as far as that goes.

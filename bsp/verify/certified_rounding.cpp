@@ -9,9 +9,10 @@
 // its cells collapses, and what is left crosses at angles that rounding does not destroy (Valque
 // and Lazard 2025; Zhou, Grinspun, Zorin and Jacobson 2016).
 //
-// Touching is another matter. Where an edge of the exact solid lies in a face of it, rounding makes
-// them cross or come apart, and no grid helps. There the face is divided, so that it shares the
-// edge.
+// Thin triangles, which rounding turns over, are given up first: that mends most results of
+// programs that users wrote. Touching is another matter. Where an edge of the exact solid lies in a
+// face of it, rounding makes them cross or come apart, and no grid helps. There the face is
+// divided, so that it shares the edge.
 //
 // Bound: moving the corners of a triangle by d at most moves each of its points by d at most. A
 // point that is farther from the boundary than it moves is not crossed by it on the way, so its
@@ -21,6 +22,7 @@
 #include <trisect/bsp/certified_rounding.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -28,11 +30,13 @@
 #include <vector>
 
 #include <trisect/brep/brep_mesh.h>
+#include <trisect/brep/import/thin_triangles.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/verify/contact_division.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/lattice_point.h>
+#include <trisect/kernel/support/nearest_float.h>
 
 namespace trisect {
 
@@ -43,13 +47,18 @@ using Outcome = CertifiedRounding::Outcome;
 // More pairs of faces that meet are no contacts, but a mesh that rounding has ruined.
 constexpr std::size_t most_contacts = 4096;
 
+double largest_coordinate(const PolygonMesh& mesh) {
+    double largest = 0;
+    for (const Point3d& p : mesh.points)
+        for (const double c : p) largest = std::max(largest, std::abs(c));
+    return largest;
+}
+
 // Twice the distance of doubles at the largest coordinate; rounding may take that up to the next
 // power of two, which is 2^52 units. Floats are so much farther apart that a finer unit only takes
 // rounds: 2^45 units.
 std::optional<int> exponent_for(const PolygonMesh& mesh, Precision precision) {
-    double largest = 0;
-    for (const Point3d& p : mesh.points)
-        for (const double c : p) largest = std::max(largest, std::abs(c));
+    const double largest = largest_coordinate(mesh);
     if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
     const int bits = std::ilogb(largest * (1 + 0x1p-30)) + 1;
     return bits -
@@ -60,23 +69,49 @@ double snapped(double value, double unit) { return std::nearbyint(value / unit) 
 
 double rounded(double value, double unit, Precision precision) {
     // A float of many units is a multiple of the unit already, a small multiple of it is a float.
-    if (precision == Precision::Float) value = static_cast<double>(static_cast<float>(value));
+    if (precision == Precision::Float) value = detail::nearest_float(value);
     return snapped(value, unit);
 }
 
 // The coordinates of floats as doubles.
 void to_floats(PolygonMesh& mesh) {
     for (Point3d& p : mesh.points)
-        for (double& c : p) c = static_cast<double>(static_cast<float>(c));
+        for (double& c : p) c = detail::nearest_float(c);
 }
 
 // How far apart an edge and the face that it lies in may be after rounding: both have moved, and
 // distances are taken in doubles.
 double reach_of(const PolygonMesh& mesh, double max_move) {
-    double largest = 0;
-    for (const Point3d& p : mesh.points)
-        for (const double c : p) largest = std::max(largest, std::abs(c));
-    return 4 * std::max(max_move, largest * 0x1p-52);
+    return 4 * std::max(max_move, largest_coordinate(mesh) * 0x1p-52);
+}
+
+// Triangles thinner than so many units in the last place given up, whether that mends all or not.
+std::optional<MendedRounding> without_thin(const PolygonMesh& mesh, const Certificate& before,
+                                           Precision precision, double units) {
+    MendedRounding out;
+    out.mesh.points = mesh.points;
+    std::vector<std::array<std::uint32_t, 3>> triangles(mesh.face_count());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (mesh.face(t).size() != 3) return std::nullopt;
+        std::ranges::copy(mesh.face(t), triangles[t].begin());
+    }
+    if (precision == Precision::Float) to_floats(out.mesh);
+    const std::vector<Point3d>& points = out.mesh.points;
+    const double place = precision == Precision::Float ? 0x1p-23 : 0x1p-52;
+    detail::TrianglesWithoutThin thick = detail::without_thin_triangles(
+        points, triangles, units * place * largest_coordinate(out.mesh));
+    for (const auto& t : thick.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
+    out.parents = std::move(thick.origin);
+    double move = 0;
+    for (std::size_t p = 0; p < points.size(); ++p)
+        for (std::size_t i = 0; i < 3; ++i)
+            move = std::max(move, std::abs(points[p][i] - points[thick.point[p]][i]));
+    out.certificate = certify(out.mesh);
+    out.certificate.max_move = detail::sum_up(before.max_move, move);
+    out.certificate.rounded_vertices = before.rounded_vertices;
+    out.radius = detail::sum_up(out.certificate.max_move, thick.reach);
+    out.gave_thin_up = true;
+    return out;
 }
 
 class Rounding {
@@ -159,8 +194,8 @@ private:
 
     // The same with the nearest doubles, or floats, as they are.
     bool conform_plain() {
-        std::optional<DividedContacts> divided =
-            divided_at_contacts(result_.mesh, result_.certificate, options_.precision);
+        std::optional<MendedRounding> divided =
+            mended_rounding(result_.mesh, result_.certificate, options_.precision);
         if (!divided) return false;
         result_.first_pairs = result_.certificate.self_intersecting_pairs.value_or(0);
         result_.mesh = std::move(divided->mesh);
@@ -211,9 +246,9 @@ private:
 
 }  // namespace
 
-std::optional<DividedContacts> divided_at_contacts(const PolygonMesh& mesh,
-                                                   const Certificate& certificate,
-                                                   Precision precision) {
+std::optional<MendedRounding> divided_at_contacts(const PolygonMesh& mesh,
+                                                  const Certificate& certificate,
+                                                  Precision precision) {
     const std::size_t pairs = certificate.self_intersecting_pairs.value_or(0);
     if (!certificate.closed || pairs == 0 || pairs > most_contacts) return std::nullopt;
     PolygonMesh plain = mesh;
@@ -222,18 +257,39 @@ std::optional<DividedContacts> divided_at_contacts(const PolygonMesh& mesh,
     detail::ContactDivision division(std::move(plain), 0, std::nullopt, [&](const Point3d& p) {
         Point3d r = p;
         if (precision == Precision::Float)
-            for (double& c : r) c = static_cast<double>(static_cast<float>(c));
+            for (double& c : r) c = detail::nearest_float(c);
         return r;
     });
     if (!division.run(reach)) return std::nullopt;
-    DividedContacts out;
+    MendedRounding out;
     out.mesh = std::move(division.mesh);
     out.parents = std::move(division.parents);
     out.certificate = *division.certificate;
     out.certificate.max_move = certificate.max_move;
     out.certificate.rounded_vertices = certificate.rounded_vertices;
     out.radius = detail::sum_up(certificate.max_move, division.moved);
+    out.divided = out.mesh.face_count() - mesh.face_count();
     return out;
+}
+
+std::optional<MendedRounding> mended_rounding(const PolygonMesh& mesh,
+                                              const Certificate& certificate, Precision precision) {
+    if (!certificate.closed || certificate.self_intersecting_pairs.value_or(0) == 0)
+        return std::nullopt;
+    std::optional<MendedRounding> thick;
+    for (const double units : {4.0, 16.0}) {
+        thick = without_thin(mesh, certificate, precision, units);
+        if (!thick) break;
+        if (thick->certificate.holds()) return thick;
+    }
+    if (auto divided = divided_at_contacts(mesh, certificate, precision)) return divided;
+    if (!thick) return std::nullopt;
+    auto both = divided_at_contacts(thick->mesh, thick->certificate, precision);
+    if (!both) return std::nullopt;
+    both->radius = detail::sum_up(both->radius, thick->radius);
+    both->gave_thin_up = true;
+    for (std::uint32_t& parent : both->parents) parent = thick->parents[parent];
+    return both;
 }
 
 CertifiedRounding certified_rounding(const Brep& brep, const RoundingOptions& options) {

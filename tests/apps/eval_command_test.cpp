@@ -51,6 +51,30 @@ TEST_F(EvalCommand, AFaceIsDividedWhereAnEdgeLiesInIt) {
     EXPECT_EQ(without["divided"], 0);
 }
 
+// Floats turn triangles over that are thinner than they are apart.
+TEST_F(EvalCommand, ThinTrianglesAreGivenUp) {
+    const std::string turned = write(
+        "turned.csg",
+        "union() {\n"
+        "multmatrix([[1,0,0,2.4],[0,-0.0430475,0.999073,2.8],[0,-0.999073,-0.0430475,0],[0,0,0,1]])"
+        " cube(size = [10, 10, 10], center = true);\n"
+        "multmatrix([[1,0,0,2.5],[0,-0.998825,0.0484699,-1.9],[0,-0.0484699,-0.998825,-1.3],"
+        "[0,0,0,1]]) cylinder(h = 14, r = 3, $fn = 8, center = true);\n"
+        "cylinder(h = 12, r = 4, $fn = 12, center = true); }\n");
+    const Finished run = trisect({"eval", turned, "-o", path("turned.stl"), "--json"});
+    EXPECT_TRUE(run.json()["certificate"]["certified"]) << run.json();
+    EXPECT_GT(run.json()["mended"]["radius"], 0);
+    EXPECT_LT(run.json()["mended"]["radius"], 1e-4);
+    EXPECT_NE(run.err.find("thinner than the rounding"), std::string::npos) << run.err;
+    // The file has what the certificate is of.
+    EXPECT_EQ(run.err.find("vertices rounded"), std::string::npos) << run.err;
+    EXPECT_EQ(trisect({"check", path("turned.stl"), "--json"}).json()["errors"], 0);
+    const json plain =
+        trisect({"eval", turned, "-o", path("plain.stl"), "--json", "--no-certificate"}).json();
+    EXPECT_TRUE(plain["mended"].is_null());
+    EXPECT_GT(trisect({"check", path("plain.stl"), "--json"}).json()["errors"], 0);
+}
+
 // Areas of faces by colour, "" for those without one.
 std::map<std::string, double> areas_by_color(const std::string& file, bool properties) {
     trisect::ReadOptions options;
