@@ -8,11 +8,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
+
+#include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
@@ -96,18 +97,27 @@ private:
 
     // Fronts and backs, which merged points may leave of what was thin.
     void cancel_opposites() {
-        std::map<Triangle, std::vector<std::uint32_t>> open;
+        FlatMap numbers;
+        std::vector<std::uint32_t> open;                          // the last one, by corners
+        std::vector<std::uint32_t> below(out_.triangles.size());  // the one before of the same
         for (std::uint32_t t = 0; t < out_.triangles.size(); ++t) {
-            const auto [key, other] = keys_of(out_.triangles[t]);
-            const auto at = open.find(other);
-            if (at == open.end() || at->second.empty()) {
-                open[key].push_back(t);
-            } else {
-                is_gone_[t] = is_gone_[at->second.back()] = true;
-                at->second.pop_back();
+            const auto [key, opposite] = keys_of(out_.triangles[t]);
+            const std::int32_t other = numbers.find(key_of(opposite));
+            if (other >= 0 && open[as_index(other)] != none) {
+                std::uint32_t& last = open[as_index(other)];
+                is_gone_[t] = is_gone_[last] = true;
+                last = below[last];
+                continue;
             }
+            const auto [own, is_new] =
+                numbers.insert(key_of(key), static_cast<std::int32_t>(open.size()));
+            if (is_new) open.push_back(none);
+            below[t] = open[as_index(own)];
+            open[as_index(own)] = t;
         }
     }
+
+    static Key128 key_of(const Triangle& t) { return {key_of(t[0], t[1]), t[2]}; }
 
     // The corners from the smallest one on, and those of the other side.
     static std::pair<Triangle, Triangle> keys_of(Triangle t) {
@@ -132,21 +142,28 @@ private:
     void count_edges(std::uint32_t t, int by) {
         const Triangle& c = out_.triangles[t];
         for (std::size_t i = 0; i < 3; ++i) {
-            Left& left = left_[key_of(c[i], c[(i + 1) % 3])];
+            const auto [number, is_new] = edges_.insert({key_of(c[i], c[(i + 1) % 3]), 0},
+                                                        static_cast<std::int32_t>(left_.size()));
+            if (is_new) left_.emplace_back();
+            Left& left = left_[as_index(number)];
             left.count += by;
             left.triangles ^= t;
         }
     }
 
+    [[nodiscard]] Left left_of_edge(std::uint32_t from, std::uint32_t to) const {
+        const std::int32_t number = edges_.find({key_of(from, to), 0});
+        return number < 0 ? Left() : left_[as_index(number)];
+    }
+
     [[nodiscard]] bool is_edge(std::uint32_t from, std::uint32_t to) const {
-        const auto at = left_.find(key_of(from, to));
-        return at != left_.end() && at->second.count > 0;
+        return left_of_edge(from, to).count > 0;
     }
 
     // The only triangle to the left of an edge, or `none`.
     [[nodiscard]] std::uint32_t left_of(std::uint32_t from, std::uint32_t to) const {
-        const auto at = left_.find(key_of(from, to));
-        return at == left_.end() || at->second.count != 1 ? none : at->second.triangles;
+        const Left left = left_of_edge(from, to);
+        return left.count == 1 ? left.triangles : none;
     }
 
     // Number of the corner that a thin triangle's longest edge starts at.
@@ -221,7 +238,8 @@ private:
     std::vector<int> depth_;
     TrianglesWithoutThin out_;
     std::vector<bool> is_gone_;
-    std::unordered_map<std::uint64_t, Left> left_;
+    FlatMap edges_;  ///< numbers of directed edges
+    std::vector<Left> left_;
 };
 
 }  // namespace
