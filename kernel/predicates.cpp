@@ -392,6 +392,46 @@ Side side_of(const HomogeneousPoint& point, const Plane& plane) {
         tier, [&]<class T>(T) { return side_from_sign(sign_at(tier_point<T>(point), plane)); });
 }
 
+namespace {
+
+bool may_be_parallel(const Plane& a, const Plane& b) {
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const int l = (i + 2) % 3;
+        const double s = a.approx_normal(j) * b.approx_normal(l);
+        const double t = a.approx_normal(l) * b.approx_normal(j);
+        if (std::fabs(s - t) > detail::minor_rounding * (std::fabs(s) + std::fabs(t))) return false;
+    }
+    return true;
+}
+
+// Of all points of the second plane, to the first one, which is parallel to it. Along the axis of
+// its largest component, x = -d/n on the second plane.
+template <class T>
+int sign_of_parallel(const Plane& plane, const Plane& of) {
+    const int axis = of.dominant_axis();
+    Columns<T::normal + T::offset - 1> sum;
+    add_product(sum, to_digits<T::offset>(plane.offset()), to_digits<T::normal>(of.normal(axis)));
+    subtract_product(sum, to_digits<T::offset>(of.offset()),
+                     to_digits<T::normal>(plane.normal(axis)));
+    return sign_of(sum) * of.normal(axis).sign();
+}
+
+// Mostly a point that doubles leave open is in a plane that is one of its own under another name.
+template <class T>
+std::optional<int> sign_by_parallel(const std::array<const Plane*, 3>& point, const Plane& plane) {
+    for (const Plane* const p : point) {
+        if (!may_be_parallel(*p, plane)) continue;
+        bool is_parallel = true;
+        for (int i = 0; i < 3 && is_parallel; ++i)
+            is_parallel = sign_of_cross<T>(*p, plane, (i + 1) % 3, (i + 2) % 3) == 0;
+        if (is_parallel) return sign_of_parallel<T>(plane, *p);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
 Side side_of(const Approximation& approximation, const Plane& p, const Plane& q, const Plane& r,
              const Plane& plane) {
     auto& counters = detail::counters_of_thread<PredicateCounters>;
@@ -405,8 +445,10 @@ Side side_of(const Approximation& approximation, const Plane& p, const Plane& q,
     }
     const int tier = tier_of(p, q, r, plane);
     count_exact(tier);
-    return in_tier(tier,
-                   [&]<class T>(T) { return side_from_sign(sign_at(cramer<T>(p, q, r), plane)); });
+    return in_tier(tier, [&]<class T>(T) {
+        const auto known = sign_by_parallel<T>({&p, &q, &r}, plane);
+        return side_from_sign(known ? *known : sign_at(cramer<T>(p, q, r), plane));
+    });
 }
 
 namespace {

@@ -23,6 +23,7 @@
 #include <trisect/bsp/many_meshes/common_segments.h>
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 #include <trisect/bsp/many_meshes/point_side.h>
+#include <trisect/bsp/many_meshes/spare_memory.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/disjoint_sets.h>
 #include <trisect/kernel/support/flat_map.h>
@@ -62,6 +63,13 @@ public:
         return true;
     }
     [[nodiscard]] OutlinedSolid result() { return std::move(out_); }
+    /// Memory for the next ones.
+    void give_back(OutlinedSolid&& solid) {
+        spare_facets_.give_back(std::move(solid.facets));
+        spare_boxes_.give_back(std::move(solid.boxes));
+        spare_edges_.give_back(std::move(solid.edges));
+        spare_vertices_.give_back(std::move(solid.vertices));
+    }
     [[nodiscard]] const SpecialPosition& special() const { return special_; }
 
 private:
@@ -145,6 +153,10 @@ private:
     std::array<std::uint32_t, 2> added_{};
     DisjointSets joined_;
     OutlinedSolid out_;
+    SpareMemory<std::vector<OutlinedSolid::Facet>> spare_facets_;
+    SpareMemory<std::vector<OutlineBox>> spare_boxes_;
+    SpareMemory<std::vector<OutlinedSolid::Edge>> spare_edges_;
+    SpareMemory<std::vector<OutlineVertex>> spare_vertices_;
 };
 
 void CommonPart::Steps::start(const OutlinedSolid& first, const OutlinedSolid& second) {
@@ -367,12 +379,12 @@ std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, DisjointS
 void CommonPart::Steps::reserve() {
     const auto both = [&](auto size) { return size(*solids_[0]) + size(*solids_[1]); };
     const std::size_t facets = both([](const OutlinedSolid& s) { return s.facets.size(); });
-    out_.facets.reserve(facets);
-    out_.boxes.reserve(facets);
-    out_.edges.reserve(both([](const OutlinedSolid& s) { return s.edges.size(); }) +
-                       4 * made_.size());
-    out_.vertices.reserve(both([](const OutlinedSolid& s) { return s.vertices.size(); }) +
-                          made_.size());
+    out_.facets = spare_facets_.take(facets);
+    out_.boxes = spare_boxes_.take(facets);
+    out_.edges = spare_edges_.take(both([](const OutlinedSolid& s) { return s.edges.size(); }) +
+                                   4 * made_.size());
+    out_.vertices = spare_vertices_.take(
+        both([](const OutlinedSolid& s) { return s.vertices.size(); }) + made_.size());
 }
 
 // All, where most are kept, and few before were not.
@@ -390,7 +402,12 @@ void CommonPart::Steps::take_vertices(OutlinedSolid& first, OutlinedSolid& secon
         2 * kept > facets && 3 * (first.vertices.size() + second.vertices.size()) <= 2 * edges;
     if (!keeps_numbers_) return;
     added_ = {0, static_cast<std::uint32_t>(first.vertices.size())};
-    out_.vertices = std::move(first.vertices);
+    // Into whichever has room for all.
+    const std::size_t all = first.vertices.size() + second.vertices.size() + made_.size();
+    if (first.vertices.capacity() >= all)
+        std::swap(out_.vertices, first.vertices);
+    else
+        out_.vertices.assign(first.vertices.begin(), first.vertices.end());
     out_.vertices.insert(out_.vertices.end(), second.vertices.begin(), second.vertices.end());
 }
 
@@ -496,6 +513,21 @@ void CommonPart::Steps::keep_parts(std::size_t solid) {
     }
 }
 
+namespace {
+
+// Each is far out of the other one.
+OutlinedSolid common_of_apart(OutlinedSolid first, OutlinedSolid second) {
+    const bool open_far_out = first.open_far_out && second.open_far_out;
+    OutlinedSolid out;
+    if (first.open_far_out) out = std::move(second);
+    const bool takes_first = open_far_out || (!first.open_far_out && second.open_far_out);
+    if (takes_first) add_apart(std::move(first), out);
+    out.open_far_out = open_far_out;
+    return out;
+}
+
+}  // namespace
+
 CommonPart::CommonPart(const ManyMeshes& meshes, const EvaluateSettings& options)
     : steps_(std::make_unique<Steps>(meshes, options)) {}
 
@@ -505,10 +537,13 @@ const SpecialPosition& CommonPart::special() const { return steps_->special(); }
 
 std::optional<OutlinedSolid> CommonPart::of(OutlinedSolid first, OutlinedSolid second,
                                             EvaluateStats& stats) {
+    if (!first.box.meets(second.box)) return common_of_apart(std::move(first), std::move(second));
     if (!steps_->run(first, second, stats)) return std::nullopt;
     OutlinedSolid out = steps_->result();
     for (OutlinedSolid* s : {&first, &second})
         for (auto& lines : s->lines) out.lines.push_back(std::move(lines));
+    steps_->give_back(std::move(first));
+    steps_->give_back(std::move(second));
     return out;
 }
 

@@ -107,10 +107,16 @@ int CommonSegments::side(std::size_t solid, std::uint32_t vertex, const Filtered
 bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
                                    const FilteredPlane& other) {
     const OutlinedSolid& s = *solids_[solid];
+    // Mostly an edge begins where the one before it ends.
+    std::uint32_t last = 0;
+    int side_of_last = 0;
     for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
         const OutlinedSolid::Edge& edge = s.edges[e];
-        const int from = side(solid, edge.from, other);
+        const int from =
+            edge.from == last && side_of_last != 0 ? side_of_last : side(solid, edge.from, other);
         const int to = side(solid, edge.to, other);
+        last = edge.to;
+        side_of_last = to;
         if (from == 0 || to == 0) return false;
         if (from == to) continue;
         Passage p;

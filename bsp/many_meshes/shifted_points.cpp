@@ -16,14 +16,18 @@
 // aside, all is as linear as for moves.
 //
 // Orders along a line are sides as well: of the plane that ends one way with respect to the other.
+//
+// Doubles with errors that keep certain zeros come first: what touches is mostly across an axis.
+// Integers decide what these leave open. Derivatives are made from the largest move on.
 
 #include <trisect/bsp/many_meshes/shifted_points.h>
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <optional>
+#include <utility>
 
+#include <trisect/bsp/many_meshes/near_number.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -33,10 +37,19 @@ namespace shifted {
 
 namespace {
 
+// What both kinds of integers have in common.
+struct Exact {
+    template <class Integer>
+    [[nodiscard]] static int sign(const Integer& v) {
+        return v.sign();
+    }
+    static constexpr bool is_open() { return false; }
+};
+
 // Whole coordinates: lengths are below 2^54, components of normals below 2^109, of their products
 // below 2^219, values of planes below 2^165, products of three normals below 2^330, of these and a
 // value below 2^497; derivatives, times a length, below 2^500.
-struct WholeNumbers {
+struct WholeNumbers : Exact {
     static constexpr int fraction = 0;
     using Length = WideInt<1>;
     using Area = WideInt<2>;
@@ -51,7 +64,7 @@ struct WholeNumbers {
 // In units of 2^-fraction_limit: lengths are below 2^127, components of normals below 2^255, of
 // their products below 2^511, values below 2^383, products of three normals below 2^768, of these
 // and a value below 2^1154; derivatives, times a length, below 2^1155.
-struct Fractions {
+struct Fractions : Exact {
     static constexpr int fraction = fraction_limit;
     using Length = WideInt<2>;
     using Area = WideInt<4>;
@@ -67,6 +80,11 @@ template <class To, int A, int B>
 To product(const WideInt<A>& a, const WideInt<B>& b) {
     return []<int R>(const WideInt<R>*, const auto& u, const auto& v) { return multiply<R>(u, v); }(
                static_cast<const To*>(nullptr), a, b);
+}
+
+template <class To>
+To product(const NearNumber& a, const NearNumber& b) {
+    return a * b;
 }
 
 template <class T>
@@ -128,67 +146,76 @@ struct ShiftedEdge {
     std::uint32_t slot = 0;
 };
 
-// Derivatives of a number by the moves of a few operands.
+// Derivatives of a number by the moves of a few operands. They are looked at from the largest move
+// on, and mostly the first one decides.
 template <class N>
 class Derivatives {
 public:
-    explicit Derivatives(const OperandShifts& shifts) : shifts_(shifts) {}
+    using Sum = typename N::Sum;
+
+    Derivatives(const N& numbers, const OperandShifts& shifts)
+        : numbers_(numbers), shifts_(shifts) {}
 
     // Moves of that operand along v add their product with `by`; points move from `at`.
-    void add(std::uint32_t slot, const Three<typename N::Sum>& by, const Point<N>& at) {
-        std::size_t i = 0;
-        while (i < count_ && parts_[i].slot != slot) ++i;
-        Part& p = parts_[i];
-        if (i == count_) {
-            ++count_;
-            p = {};
-            p.slot = slot;
-        }
-        for (std::size_t k = 0; k < 3; ++k) p.by[k] += by[k];
-        if (shifts_.do_grow())
-            p.by_growth +=
-                dot<typename N::Sum>(by, minus(at, point_of<N>(shifts_.growth(slot).centre)));
+    void add(std::uint32_t slot, const Three<Sum>& by, const Point<N>& at) {
+        terms_[count_++] = {slot, by, at};
     }
     // Of the sum of all, which is not 0.
     [[nodiscard]] int sign() const {
-        if (const int s = sign_of_growths(); s != 0) return s;
-        for (const std::uint8_t axis : shifts_.axes())
-            if (const int s = sign_along(axis); s != 0) return s;
+        if (shifts_.do_grow()) {
+            const int s = first_sign([&](std::uint32_t slot) { return shifts_.growth_rank(slot); },
+                                     [&](std::uint32_t slot) {
+                                         const auto& growth = shifts_.growth(slot);
+                                         const Point<N> centre = point_of<N>(growth.centre);
+                                         Sum sum{};
+                                         for_each_term(slot, [&](const Term& t) {
+                                             sum += dot<Sum>(t.by, minus(t.at, centre));
+                                         });
+                                         return growth.sign * numbers_.sign(sum);
+                                     });
+            if (s != 0 || numbers_.is_open()) return s;
+        }
+        for (const std::uint8_t axis : shifts_.axes()) {
+            const int s =
+                first_sign([&](std::uint32_t slot) { return shifts_.rank(axis, slot); },
+                           [&](std::uint32_t slot) {
+                               Sum sum{};
+                               for_each_term(slot, [&](const Term& t) { sum += t.by[axis]; });
+                               return numbers_.sign(sum);
+                           });
+            if (s != 0 || numbers_.is_open()) return s;
+        }
         return 0;
     }
 
 private:
-    struct Part {
+    struct Term {
         std::uint32_t slot = 0;
-        Three<typename N::Sum> by{};
-        typename N::Sum by_growth{};
+        Three<Sum> by{};
+        Point<N> at{};
     };
-    [[nodiscard]] int sign_of_growths() const {
-        if (!shifts_.do_grow()) return 0;
-        return sign_of_largest(
-            [&](const Part& p) { return shifts_.growth(p.slot).sign * p.by_growth.sign(); },
-            [&](std::uint32_t slot) { return shifts_.growth_rank(slot); });
-    }
-    [[nodiscard]] int sign_along(std::size_t axis) const {
-        return sign_of_largest([&](const Part& p) { return p.by[axis].sign(); },
-                               [&](std::uint32_t slot) { return shifts_.rank(axis, slot); });
+    template <class Visit>
+    void for_each_term(std::uint32_t slot, const Visit& visit) const {
+        for (std::size_t i = 0; i < count_; ++i)
+            if (terms_[i].slot == slot) visit(terms_[i]);
     }
     // The sign that is not 0 of the first in rank.
-    template <class Sign, class Rank>
-    [[nodiscard]] int sign_of_largest(const Sign& sign, const Rank& rank) const {
-        int out = 0;
-        std::uint32_t least = ~std::uint32_t{0};
+    template <class Rank, class Sign>
+    [[nodiscard]] int first_sign(const Rank& rank, const Sign& sign) const {
+        std::array<std::pair<std::uint32_t, std::uint32_t>, most> slots;
+        for (std::size_t i = 0; i < count_; ++i) slots[i] = {rank(terms_[i].slot), terms_[i].slot};
+        std::sort(slots.begin(), slots.begin() + static_cast<std::ptrdiff_t>(count_));
         for (std::size_t i = 0; i < count_; ++i) {
-            const int s = sign(parts_[i]);
-            if (s == 0 || rank(parts_[i].slot) >= least) continue;
-            least = rank(parts_[i].slot);
-            out = s;
+            if (i > 0 && slots[i] == slots[i - 1]) continue;
+            if (const int s = sign(slots[i].second); s != 0 || numbers_.is_open()) return s;
         }
-        return out;
+        return 0;
     }
 
+    static constexpr std::size_t most = 4;
+    const N& numbers_;
     const OperandShifts& shifts_;
-    std::array<Part, 4> parts_;
+    std::array<Term, most> terms_;
     std::size_t count_ = 0;
 };
 
@@ -196,7 +223,7 @@ private:
 template <class N>
 class ShiftedSides {
 public:
-    explicit ShiftedSides(const ManyMeshes& meshes) : meshes_(meshes) {}
+    ShiftedSides(const N& numbers, const ManyMeshes& meshes) : numbers_(numbers), meshes_(meshes) {}
 
     [[nodiscard]] bool needed_moves() const { return needed_moves_; }
 
@@ -238,7 +265,7 @@ public:
 
     [[nodiscard]] int side_of_point(const Point<N>& p, std::uint32_t slot,
                                     const ShiftedPlane<N>& plane) {
-        if (const int s = plane.value(p).sign(); s != 0) return s;
+        if (const int s = numbers_.sign(plane.value(p)); s != 0 || numbers_.is_open()) return s;
         Derivatives<N> d = moves();
         d.add(slot, times<Sum>(typename N::Length(1), plane.normal), p);
         d.add(plane.slot, times<Sum>(typename N::Length(-1), plane.normal), plane.at);
@@ -252,9 +279,9 @@ public:
         const auto start_in = in.value(e.from);
         const auto drop = start - plane.value(e.to);
         const auto drop_in = start_in - in.value(e.to);
-        const int way = drop_in.sign();
-        const int s = (product<Sum>(start, drop_in) - product<Sum>(start_in, drop)).sign();
-        if (s != 0) return s * way;
+        const int way = numbers_.sign(drop_in);
+        const int s = numbers_.sign(product<Sum>(start, drop_in) - product<Sum>(start_in, drop));
+        if (s != 0 || numbers_.is_open()) return s * way;
         Derivatives<N> d = moves();
         const auto of_plane = times<Sum>(drop_in, plane.normal);
         const auto of_in = times<Sum>(drop, in.normal);
@@ -271,15 +298,14 @@ public:
         const auto by_b = volume(plane, c, a);
         const auto by_c = volume(plane, a, b);
         const auto all = volume(a, b, c);
-        const int way = all.sign();
+        const int way = numbers_.sign(all);
         // How far planes are from the point of one of them.
         const auto height = [&](const ShiftedPlane<N>& p) {
             return dot<typename N::Value>(p.normal, minus(p.at, plane.at));
         };
-        const int s = (product<Sum>(by_a, height(a)) + product<Sum>(by_b, height(b)) +
-                       product<Sum>(by_c, height(c)))
-                          .sign();
-        if (s != 0) return s * way;
+        const int s = numbers_.sign(product<Sum>(by_a, height(a)) + product<Sum>(by_b, height(b)) +
+                                    product<Sum>(by_c, height(c)));
+        if (s != 0 || numbers_.is_open()) return s * way;
         Derivatives<N> d = moves();
         const Three<Sum> zero{};
         d.add(a.slot, times<Sum>(by_a, a.normal), a.at);
@@ -294,7 +320,15 @@ public:
         return dot<typename N::Volume>(cross<typename N::Minor>(a.normal, b.normal), c.normal);
     }
     [[nodiscard]] int drop_along(const ShiftedEdge<N>& e, const ShiftedPlane<N>& plane) const {
-        return (plane.value(e.from) - plane.value(e.to)).sign();
+        return numbers_.sign(plane.value(e.from) - plane.value(e.to));
+    }
+    // Of the direction of the line of two planes through a third one.
+    [[nodiscard]] int rise_along(const ShiftedPlane<N>& a, const ShiftedPlane<N>& b,
+                                 const ShiftedPlane<N>& plane) const {
+        return numbers_.sign(volume(a, b, plane));
+    }
+    [[nodiscard]] int slope(const ShiftedPlane<N>& plane, std::size_t axis) const {
+        return numbers_.sign(plane.normal[axis]);
     }
 
     [[nodiscard]] Approximation meeting(const ShiftedPlane<N>& a, const ShiftedPlane<N>& b,
@@ -331,7 +365,7 @@ public:
             const double length = std::fabs(n[k].to_double());
             if (length <= longest) continue;
             longest = length;
-            out = {k, n[k].sign()};
+            out = {k, numbers_.sign(n[k])};
         }
         return out;
     }
@@ -340,13 +374,14 @@ private:
     using Sum = typename N::Sum;
     [[nodiscard]] Derivatives<N> moves() {
         needed_moves_ = true;
-        return Derivatives<N>(*meshes_.shifts);
+        return {numbers_, *meshes_.shifts};
     }
     [[nodiscard]] Point<N> corner(std::uint32_t slot, std::uint32_t facet, int i) const {
         const std::uint32_t own = facet - meshes_.operands->operands[slot].first;
         return point_of<N>(meshes_.sources[slot]->corner(own, i));
     }
 
+    const N& numbers_;
     const ManyMeshes& meshes_;
     bool needed_moves_ = false;
 };
@@ -368,15 +403,27 @@ bool is_whole(const ManyMeshes& meshes, const OutlineVertex& v) {
     return are_whole(meshes, {v.facets[0], v.facets[1], v.facets[2]});
 }
 
+template <class N, class Answer>
+auto with_numbers_of(const ManyMeshes& meshes, const Answer& answer) {
+    const N numbers;
+    ShiftedSides<N> sides(numbers, meshes);
+    return answer(sides);
+}
+
 // With the numbers that the operands take.
 template <class Answer>
+auto with_integers(const ManyMeshes& meshes, bool whole, const Answer& answer) {
+    return whole ? with_numbers_of<WholeNumbers>(meshes, answer)
+                 : with_numbers_of<Fractions>(meshes, answer);
+}
+
+// In doubles, or in integers where these leave a sign open. An answer has no effects.
+template <class Answer>
 auto with_numbers(const ManyMeshes& meshes, bool whole, const Answer& answer) {
-    if (whole) {
-        ShiftedSides<WholeNumbers> sides(meshes);
-        return answer(sides);
-    }
-    ShiftedSides<Fractions> sides(meshes);
-    return answer(sides);
+    const NearNumbersOfShifts near;
+    ShiftedSides<NearNumbersOfShifts> sides(near, meshes);
+    auto out = answer(sides);
+    return near.is_open() ? with_integers(meshes, whole, answer) : out;
 }
 
 }  // namespace
@@ -385,6 +432,7 @@ auto with_numbers(const ManyMeshes& meshes, bool whole, const Answer& answer) {
 
 using shifted::are_whole;
 using shifted::is_whole;
+using shifted::with_integers;
 using shifted::with_numbers;
 
 void ShiftedPoints::note(std::initializer_list<std::uint32_t> facets) const {
@@ -444,50 +492,54 @@ int ShiftedPoints::side_of_plane(const OutlineVertex& vertex, std::uint32_t face
 // rises through that.
 int ShiftedPoints::order_on_edge(std::uint32_t facet, std::int8_t edge, std::uint32_t one,
                                  std::uint32_t other) const {
-    return with_numbers(meshes_, are_whole(meshes_, {facet, one, other}), [&](auto& sides) {
-        const auto e = sides.edge(facet, edge);
-        const auto plane = sides.plane(other);
-        const int side = sides.side_on_edge(e, sides.plane(one), plane);
-        if (sides.needed_moves()) note({facet, one, other});
-        return -side * sides.drop_along(e, plane);
-    });
+    const Side order =
+        with_numbers(meshes_, are_whole(meshes_, {facet, one, other}), [&](auto& sides) -> Side {
+            const auto e = sides.edge(facet, edge);
+            const auto plane = sides.plane(other);
+            const int side = sides.side_on_edge(e, sides.plane(one), plane);
+            return {-side * sides.drop_along(e, plane), sides.needed_moves()};
+        });
+    if (order.by_moves) note({facet, one, other});
+    return order.sign;
 }
 
 int ShiftedPoints::order_on_line(const std::array<std::uint32_t, 2>& line, std::uint32_t one,
                                  std::uint32_t other) const {
-    return with_numbers(meshes_, are_whole(meshes_, {line[0], line[1], one, other}),
-                        [&](auto& sides) {
-                            const auto a = sides.plane(line[0]);
-                            const auto b = sides.plane(line[1]);
-                            const auto plane = sides.plane(other);
-                            const int side = sides.side_of_meeting(a, b, sides.plane(one), plane);
-                            if (sides.needed_moves()) note({line[0], line[1], one, other});
-                            return side * sides.volume(a, b, plane).sign();
-                        });
+    const Side order = with_numbers(
+        meshes_, are_whole(meshes_, {line[0], line[1], one, other}), [&](auto& sides) -> Side {
+            const auto a = sides.plane(line[0]);
+            const auto b = sides.plane(line[1]);
+            const auto plane = sides.plane(other);
+            const int side = sides.side_of_meeting(a, b, sides.plane(one), plane);
+            return {side * sides.rise_along(a, b, plane), sides.needed_moves()};
+        });
+    if (order.by_moves) note({line[0], line[1], one, other});
+    return order.sign;
 }
 
 int ShiftedPoints::order_to_end(const FacetCrossing& crossing, std::size_t end,
                                 std::uint32_t facet) const {
-    return with_numbers(
-        meshes_, are_whole(meshes_, {crossing.facets[0], crossing.facets[1], facet}),
-        [&](auto& sides) {
-            const auto a = sides.plane(crossing.facets[0]);
-            const auto b = sides.plane(crossing.facets[1]);
-            const auto plane = sides.plane(facet);
-            const FacetCrossing::End& e = crossing.ends[end];
-            const auto edge = sides.edge(crossing.facets[e.of_second ? 1 : 0], e.edge);
-            const int side = sides.side_on_edge(edge, e.of_second ? a : b, plane);
-            if (sides.needed_moves()) note({crossing.facets[0], crossing.facets[1], facet});
-            return -side * sides.volume(a, b, plane).sign();
-        });
+    const Side order =
+        with_numbers(meshes_, are_whole(meshes_, {crossing.facets[0], crossing.facets[1], facet}),
+                     [&](auto& sides) -> Side {
+                         const auto a = sides.plane(crossing.facets[0]);
+                         const auto b = sides.plane(crossing.facets[1]);
+                         const auto plane = sides.plane(facet);
+                         const FacetCrossing::End& e = crossing.ends[end];
+                         const auto edge = sides.edge(crossing.facets[e.of_second ? 1 : 0], e.edge);
+                         const int side = sides.side_on_edge(edge, e.of_second ? a : b, plane);
+                         return {-side * sides.rise_along(a, b, plane), sides.needed_moves()};
+                     });
+    if (order.by_moves) note({crossing.facets[0], crossing.facets[1], facet});
+    return order.sign;
 }
 
 Approximation ShiftedPoints::meeting(const std::array<std::uint32_t, 3>& facets) const {
-    return with_numbers(meshes_, are_whole(meshes_, {facets[0], facets[1], facets[2]}),
-                        [&](auto& sides) {
-                            return sides.meeting(sides.plane(facets[0]), sides.plane(facets[1]),
-                                                 sides.plane(facets[2]));
-                        });
+    return with_integers(meshes_, are_whole(meshes_, {facets[0], facets[1], facets[2]}),
+                         [&](auto& sides) {
+                             return sides.meeting(sides.plane(facets[0]), sides.plane(facets[1]),
+                                                  sides.plane(facets[2]));
+                         });
 }
 
 ShiftedPoints::Direction ShiftedPoints::direction(std::uint32_t first, std::uint32_t second) const {
@@ -522,7 +574,7 @@ int ShiftedPoints::order_at_height(std::uint32_t facet, const OutlinedSolid::Edg
 
 int ShiftedPoints::slope(std::uint32_t facet, std::size_t axis) const {
     return with_numbers(meshes_, are_whole(meshes_, {facet}),
-                        [&](auto& sides) { return sides.plane(facet).normal[axis].sign(); });
+                        [&](auto& sides) { return sides.slope(sides.plane(facet), axis); });
 }
 
 int ShiftedPoints::side_of_corner(const OutlineVertex& corner, std::uint32_t facet) const {

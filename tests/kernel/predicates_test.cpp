@@ -318,6 +318,38 @@ TEST(Consistency, TheFilterNeverContradictsTheExactStage) {
     }
 }
 
+// Planes that are parallel to one of the point's, or that plane by other corners.
+TEST(Consistency, SidesOfParallelPlanesAreThoseOfTheExactPoint) {
+    oracle::Source random(97);
+    int on = 0;
+    for (int round = 0; round < 5000; ++round) {
+        const int bits = static_cast<int>(2 + random.below(40));
+        std::array<LatticePoint, 3> c;
+        for (LatticePoint& x : c) x = random.point(bits);
+        if (round % 3 == 0) c[1].z = c[2].z = c[0].z;
+        if (trisect::are_collinear(c[0], c[1], c[2])) continue;
+        const LatticePoint shift = round % 2 == 0 ? LatticePoint{0, 0, 0} : random.point(bits);
+        const auto along = [&](int i, int j) {
+            const auto at = [&](int k) {
+                const auto of = [&](const LatticePoint& x) { return x[k].to_integer(); };
+                return of(c[0]) + of(shift) + i * (of(c[1]) - of(c[0])) + j * (of(c[2]) - of(c[0]));
+            };
+            return LatticePoint{at(0), at(1), at(2)};
+        };
+        const Plane p = Plane::through(c[0], c[1], c[2]);
+        const Plane s = round % 5 == 0 ? Plane::through(along(0, 0), along(2, 3), along(3, 1))
+                                       : Plane::through(along(1, 1), along(3, 2), along(0, 3));
+        const Plane q = random.plane(bits);
+        const Plane r = random.plane(bits);
+        if (!meet_in_a_point(p, q, r)) continue;
+        const Side side = side_of(*intersect(p, q, r), s);
+        EXPECT_EQ(side_of(vague, p, q, r, s), side);
+        EXPECT_EQ(side_of(vague, q, r, p, s), side);
+        on += side == Side::On ? 1 : 0;
+    }
+    EXPECT_GT(on, 1000);
+}
+
 TEST(Consistency, CompareCoordinateIsTheOrderOfNumbers) {
     oracle::Source random(9);
     for (int round = 0; round < 3000; ++round) {
