@@ -30,6 +30,7 @@
 #include <trisect/bsp/assembly/parts/fragment_group.h>
 #include <trisect/bsp/assembly/parts/named_edges.h>
 #include <trisect/bsp/assembly/parts/outline_edges.h>
+#include <trisect/bsp/assembly/parts/sheets.h>
 #include <trisect/bsp/assembly/traced/outlined_edges.h>
 #include <trisect/bsp/assembly/traced/traced_facets.h>
 #include <trisect/bsp/cells/deferred_leaf.h>
@@ -79,8 +80,7 @@ public:
     [[nodiscard]] bool run() {
         std::visit([&](const auto& form) { gather(form); }, solid_.form);
         if (needs_tree_) return false;
-        finish();
-        return !may_cross_straight_ || find_lacking_crossings(out_);
+        return finish() && (!may_cross_straight_ || find_lacking_crossings(out_));
     }
 
 private:
@@ -89,7 +89,7 @@ private:
     void gather(const UndividedMeshes& meshes);
     void gather(const PrismOutlines& prisms);
     void gather(const FlatPrism&) { needs_tree_ = true; }
-    void finish();
+    [[nodiscard]] bool finish();
     void list_leaves(const CellNode& node, bool complemented, const Cell& cell);
     [[nodiscard]] const DeferredLeaf* deferred(const AssembledLeaf& leaf) const;
     [[nodiscard]] const OccupancyGrid* occupancy(const AssembledLeaf& leaf) const;
@@ -118,8 +118,8 @@ private:
     void merge_equal_points();
     void add_planes_through(PointId value);
     [[nodiscard]] bool is_same(PointId value, PointId name);
-    void conform_edges(std::size_t traced, std::size_t of_leaves);
-    void conform_traced(std::span<const BoundaryEdge> edges);
+    [[nodiscard]] bool conform_edges(std::size_t traced, std::size_t of_leaves);
+    [[nodiscard]] bool conform_traced(std::span<const BoundaryEdge> edges);
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -130,9 +130,10 @@ private:
     std::span<const FacetName> incomplete_;  // of a tree
     bool needs_tree_ = false;
     bool may_cross_straight_ = false;  // faces of outlines
-    std::uint64_t first_serial_ = 0;   // of the mesh that stands for both where they have facets in
-                                       // common; these may pass through
-    bool defers_ = false;              // crossings of all leaves in general position are known
+    bool may_have_sheets_ = false;
+    std::uint64_t first_serial_ = 0;  // of the mesh that stands for both where they have facets in
+                                      // common; these may pass through
+    bool defers_ = false;             // crossings of all leaves in general position are known
     std::vector<AssembledLeaf> leaves_;
     std::vector<ListPart> lists_;
     std::size_t last_table_ = 0;
@@ -166,6 +167,7 @@ void Gatherer::gather(const CellTree& tree) {
 void Gatherer::gather(const UndividedMeshes& meshes) {
     first_serial_ = meshes.crossings->operands[0].serial;
     may_cross_straight_ = meshes.may_have_straight_crossings;
+    may_have_sheets_ = meshes.may_have_sheets;
     for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get()) {
         mark_uncrossed(m->uncrossed);
         mark_crossed(*m->crossings);
@@ -195,7 +197,8 @@ void Gatherer::gather(const PrismOutlines& prisms) {
     add_outlines(*prisms.outlines, out_, edges_);
 }
 
-void Gatherer::finish() {
+// False where it takes the tree of the solid.
+bool Gatherer::finish() {
     const std::size_t traced = edges_.size();
     axis_faces_ = AxisFaces::of(out_);
     if (by_planes_ && traced == 0) choose_axis_faces();
@@ -206,10 +209,11 @@ void Gatherer::finish() {
     }
     const std::size_t of_leaves = edges_.size();
     make_axis_faces();
-    out_.bench.end_points();
+    if (!may_have_sheets_) out_.bench.end_points();
     merge_equal_points();
     check_stop(edges_.size());
-    conform_edges(traced, of_leaves);
+    if (!conform_edges(traced, of_leaves)) return false;
+    if (may_have_sheets_) out_.bench.end_points();
     out_.representatives = std::move(same_);
     out_.are_joined = axis_faces_->takes_all();
     out_.stats.leaves = leaves_.size();
@@ -218,6 +222,7 @@ void Gatherer::finish() {
     out_.stats.parts += axis_faces_->part_count();
     out_.stats.worked_facets = out_.facets.size();
     out_.stats.edges = out_.edges.size();
+    return true;
 }
 
 void Gatherer::mark_leaves() {
@@ -751,7 +756,7 @@ bool Gatherer::is_same(PointId value, PointId name) {
 // Where a facet is in special position, what its outline encloses may have no width, as far as the
 // shift of a mesh goes: edges have no length or lie in each other. With all vertices inside them
 // inserted, what is too much cancels.
-void Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
+bool Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
     std::vector<BoundaryEdge> special;
     std::vector<PointId> vertices;
     for (const BoundaryEdge& e : edges) {
@@ -762,25 +767,33 @@ void Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
             vertices.insert(vertices.end(), {e.from, e.to});
         }
     }
-    if (special.empty()) return;
+    if (special.empty()) return true;
     splitter_.clear();
     for (const PointId p : vertices) splitter_.add_candidate(p);
-    splitter_.split(special, out_.edges);
+    if (!may_have_sheets_) {
+        splitter_.split(special, out_.edges);
+        return true;
+    }
+    std::vector<BoundaryEdge> conforming;
+    splitter_.split(special, conforming);
+    if (!remove_sheets(out_, same_, conforming)) return false;
+    out_.edges.insert(out_.edges.end(), conforming.begin(), conforming.end());
+    return true;
 }
 
 // Edges of traced facets in general position, and of axis-perpendicular planes, which come last,
 // have all their vertices.
-void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
+bool Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     if (axis_faces_->takes_all()) {
         out_.edges = std::move(edges_);
-        return;
+        return true;
     }
     for (BoundaryEdge& e : edges_) {
         e.from = same_[as_index(e.from)];
         e.to = same_[as_index(e.to)];
     }
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
-    conform_traced(std::span(edges_).first(traced));
+    if (!conform_traced(std::span(edges_).first(traced))) return false;
     out_.edges.insert(out_.edges.end(), edges_.begin() + static_cast<std::ptrdiff_t>(of_leaves),
                       edges_.end());
     for (const AssembledLeaf& leaf : leaves_) {
@@ -797,6 +810,7 @@ void Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
             splitter_.add_candidate(same_[as_index(inside_[i])]);
         splitter_.split(edges, out_.edges);
     }
+    return true;
 }
 
 }  // namespace

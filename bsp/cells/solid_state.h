@@ -65,6 +65,8 @@ struct UndividedMeshes {
     std::shared_ptr<const OutlinedFacets> outlined = nullptr;  ///< of many meshes; else null
     /// As that of a CellTree, whose outlines may lack such lines.
     bool may_have_straight_crossings = false;
+    /// Whether outlines may lie in each other and face opposite ways, with nothing between them.
+    bool may_have_sheets = false;
     /// Of an exclusive or of two meshes: what the second one has outside the first one. The rest
     /// of this is what the first one has outside the second one, and they touch in curves alone.
     /// Its tree is this one's.

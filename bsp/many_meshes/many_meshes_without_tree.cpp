@@ -15,8 +15,9 @@
 //
 // Where meshes touch, operands are moved by less than any number (operand_shifts.h), which puts all
 // in general position. Assembly moves them back: parts without an area are left out then. Facets
-// that cover a part of a plane would leave a sheet of no thickness if they were moved the wrong
-// way; then all is done once more with other moves.
+// that cover a part of a plane leave a sheet of no thickness if they are moved the wrong way; then
+// all is done once more with other moves. Where no moves serve all of them, as for tubes within
+// each other whose ends are flush, assembly takes the sheets out (sheets.h).
 
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 
@@ -469,10 +470,17 @@ std::vector<OperandShifts::Growth> growths_of(const ManyMeshes& meshes) {
     return out;
 }
 
+// How often all may be done once more, and whether meshes grow and shrink the wrong way.
+struct Turns {
+    int most = 4;
+    bool are_backwards = false;
+};
+
 // What all operands leave open together, and the facets in special position.
 struct CommonOfAll {
     OutlinedSolid solid;
     std::vector<std::uint32_t> special;  // ascending
+    bool has_sheets = false;             // or may have
 };
 
 // Facets in special position get vertices of others into their edges; then those that share an edge
@@ -496,15 +504,17 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
     std::ranges::sort(common.special);
 }
 
-// Nothing where it cannot be found.
+// Nothing where it cannot be found. Once no other moves are found, or after the last turn, sheets
+// of no thickness are left.
 std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& solids,
-                                         const EvaluateSettings& options, std::uint32_t threads,
-                                         EvaluateStats& stats) {
+                                         const EvaluateSettings& options, const Turns& turns,
+                                         std::uint32_t threads, EvaluateStats& stats) {
     std::vector<OperandShifts::Growth> growths = growths_of(meshes);
+    for (OperandShifts::Growth& g : growths)
+        if (turns.are_backwards) g.sign = static_cast<std::int8_t>(-g.sign);
     std::optional<OperandShifts> shifts(growths);
     std::vector<OperandShifts::Wanted> wanted;
-    constexpr int most_turns = 4;
-    for (int turn = 0; turn < most_turns && shifts; ++turn) {
+    for (int turn = 0;; ++turn) {
         meshes.shifts = &*shifts;
         const BalancedTree tree(meshes, solids, options, threads != 1);
         EvaluateStats made;
@@ -519,16 +529,20 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
                 wanted.push_back(w);
             }
         });
-        if (as_wanted) {
+        std::optional<OperandShifts> next;
+        if (!as_wanted && turn + 1 < turns.most) {
+            std::ranges::sort(wanted);
+            wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+            next = OperandShifts::satisfying(growths, wanted);
+        }
+        if (!next) {
             add_sharing(out, meshes.facet_count());
+            out.has_sheets = !as_wanted;
             stats = made;
             return out;
         }
-        std::ranges::sort(wanted);
-        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-        shifts = OperandShifts::satisfying(growths, wanted);
+        shifts = std::move(next);
     }
-    return std::nullopt;
 }
 
 // Groups of operands leave them in an order of their own.
@@ -617,11 +631,12 @@ bool are_nested(const SolidStates& solids) {
            }) == boxes.end();
 }
 
-std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula,
-                                                    const SolidStates& solids,
-                                                    const EvaluateSettings& options,
-                                                    EvaluateStats& stats,
-                                                    std::shared_ptr<const LazyTree> tree) {
+namespace {
+
+std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::Ref& formula,
+                                           const SolidStates& solids,
+                                           const EvaluateSettings& options, EvaluateStats& stats,
+                                           std::shared_ptr<const LazyTree> tree) {
     std::optional<Crossings> operands = crossings_of(*formula, solids);
     std::optional<NestedFormula> nested;
     if (!operands) {
@@ -643,15 +658,35 @@ std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula
         meshes.extent[k] = static_cast<double>(all.hi[k] - all.lo[k] + 2);
     EvaluateStats made;
     auto result = on_threads(options.threads, [&](std::uint32_t threads) {
-        return common_of_all(meshes, solids, options, threads, made);
+        return common_of_all(meshes, solids, options, turns, threads, made);
     });
     if (!result) return std::nullopt;
     operands->special = std::move(result->special);
     UndividedMeshes form = form_of(result->solid, meshes, *operands, std::move(tree));
     form.may_have_straight_crossings = nested && !operands->special.empty();
+    form.may_have_sheets = result->has_sheets;
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();
     stats = made;
     return form;
+}
+
+}  // namespace
+
+std::optional<SolidForm> evaluate_many_without_tree(const Residual::Ref& formula,
+                                                    const SolidStates& solids,
+                                                    const EvaluateSettings& options,
+                                                    EvaluateStats& stats,
+                                                    std::shared_ptr<const LazyTree> tree) {
+    return evaluate_in_turns({}, formula, solids, options, stats, std::move(tree));
+}
+
+std::optional<SolidForm> evaluate_many_with_sheets(const Residual::Ref& formula,
+                                                   const SolidStates& solids,
+                                                   const EvaluateSettings& options,
+                                                   EvaluateStats& stats,
+                                                   std::shared_ptr<const LazyTree> tree) {
+    return evaluate_in_turns({.most = 1, .are_backwards = true}, formula, solids, options, stats,
+                             std::move(tree));
 }
 
 }  // namespace trisect::detail

@@ -31,10 +31,14 @@ namespace trisect::detail {
 /// Whether each box but the largest lies within the next larger one. \pre as above. O(n log n)
 [[nodiscard]] bool are_nested(const SolidStates& solids);
 
-/// The value of such a formula, with that tree. Nothing where no infinitesimal moves of the meshes
-/// are found that leave nothing of no thickness, or sides are not known. What it returns does not
-/// depend on the number of threads. \pre may_be_many_meshes()
+/// The value of such a formula, with that tree. Nothing where sides are not known. What it returns
+/// does not depend on the number of threads. \pre may_be_many_meshes()
 [[nodiscard]] std::optional<SolidForm> evaluate_many_without_tree(
+    const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
+    EvaluateStats& stats, std::shared_ptr<const LazyTree> tree);
+/// The same by infinitesimal moves the wrong way, with all sheets of no thickness that these leave:
+/// for tests.
+[[nodiscard]] std::optional<SolidForm> evaluate_many_with_sheets(
     const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
     EvaluateStats& stats, std::shared_ptr<const LazyTree> tree);
 

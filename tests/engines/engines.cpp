@@ -291,6 +291,23 @@ std::optional<std::string> pairwise_difference(const trisect::Expression& expres
     const auto same_lattice = [&](const auto& s) { return s->lattice == states[0]->lattice; };
     if (!std::ranges::all_of(states, same_lattice)) return std::nullopt;
     std::optional<trisect::PolygonMesh> first;
+    const auto why_not = [&](const SolidState& state, const auto& mesh) {
+        std::string why = difference(assemble_brep(state, {}), expected);
+        if (why.empty() && mesh) why = open_edge(*mesh);
+        // Lines in which faces may go straight across each other take a tree.
+        const bool may_need_tree =
+            std::get<UndividedMeshes>(state.form).may_have_straight_crossings;
+        if (why.empty() && !may_need_tree && state.lazy_tree()->is_cut()) why = "a tree was made";
+        return why;
+    };
+    EvaluateStats ignored;
+    const auto with_sheets =
+        evaluate_by({&may_be_many_meshes, &evaluate_many_with_sheets}, t.formula, states,
+                    EvaluateSettings{options, usual_splitting_offset}, ignored);
+    if (with_sheets != nullptr) {
+        const std::string why = why_not(*with_sheets, mesh_of(*with_sheets));
+        if (!why.empty()) return "with sheets: " + why;
+    }
     for (const std::uint32_t threads : {1U, 2U, 4U}) {
         trisect::EvaluateOptions with = options;
         with.threads = threads;
@@ -304,13 +321,7 @@ std::optional<std::string> pairwise_difference(const trisect::Expression& expres
         if (threads == 1) {
             doubtful = stats.doubtful_pairs;
             first = mesh;
-            std::string why = difference(assemble_brep(*state, {}), expected);
-            if (why.empty() && mesh) why = open_edge(*mesh);
-            // Lines in which faces may go straight across each other take a tree.
-            const bool may_need_tree =
-                std::get<UndividedMeshes>(state->form).may_have_straight_crossings;
-            if (why.empty() && !may_need_tree && state->lazy_tree()->is_cut())
-                why = "a tree was made";
+            const std::string why = why_not(*state, mesh);
             if (!why.empty()) return why;
         }
         if (!are_equal(mesh, first))

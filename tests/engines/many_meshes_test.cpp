@@ -43,12 +43,16 @@ struct Count {
     int tried = 0;
     int without_tree = 0;
     int by_tree = 0;  // of those, since faces may go straight across each other
+    int with_sheets = 0;
 };
 
+using Evaluate = decltype(trisect::detail::FormulaRule::evaluate);
+
 // By the rule alone, wherever the meshes lie. \pre they are on one lattice
-std::shared_ptr<const SolidState> without_tree(const trisect::Expression& expression,
-                                               std::uint32_t threads = 1,
-                                               trisect::detail::EvaluateStats* found = nullptr) {
+std::shared_ptr<const SolidState> without_tree(
+    const trisect::Expression& expression, std::uint32_t threads = 1,
+    trisect::detail::EvaluateStats* found = nullptr,
+    Evaluate evaluate = &trisect::detail::evaluate_many_without_tree) {
     using namespace trisect::detail;
     const Translation t = translate(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
@@ -56,7 +60,7 @@ std::shared_ptr<const SolidState> without_tree(const trisect::Expression& expres
     trisect::EvaluateOptions options;
     options.threads = threads;
     trisect::detail::EvaluateStats stats;
-    auto out = evaluate_by({&may_be_many_meshes, &evaluate_many_without_tree}, t.formula, states,
+    auto out = evaluate_by({&may_be_many_meshes, evaluate}, t.formula, states,
                            EvaluateSettings{options, SplittingOffset::of_thread()}, stats);
     if (found != nullptr) *found = stats;
     return out;
@@ -92,15 +96,18 @@ void expect_same_as_cells(const trisect::Expression& expression, Count& count) {
 }
 
 void expect_agreement(const std::vector<Operand>& operands, const Expression& expression,
-                      Count& count) {
+                      Count& count,
+                      Evaluate evaluate = &trisect::detail::evaluate_many_without_tree) {
     std::vector<trisect::Solid> solids;
     solids.reserve(operands.size());
     for (const auto& o : operands) solids.push_back(engines::solid(o, trisect::Embedding::Assume));
     const trisect::Expression formula = engines::formula(expression, solids);
     ++count.tried;
-    const auto state = without_tree(formula);
+    const auto state = without_tree(formula, 1, nullptr, evaluate);
     if (state == nullptr) return;
     ++count.without_tree;
+    if (std::get<trisect::detail::UndividedMeshes>(state->form).may_have_sheets)
+        ++count.with_sheets;
     try {
         const auto expected = reference::evaluate(operands, expression);
         const trisect::Brep brep = trisect::detail::assemble_brep(*state, {});
@@ -330,6 +337,84 @@ TEST(ManyMeshes, ToolsAreFlushWithWhatStandsOnSomething) {
                 count);
         }
     EXPECT_EQ(count.without_tree, 9);
+    EXPECT_EQ(count.by_tree, 0);
+}
+
+// Each tube fills the bore of the next larger one, and all end in one plane: what is bored has to
+// grow less than its bore, which has to grow less than the tube that fills it.
+TEST(ManyMeshes, TubesInTubesThatEndInOnePlane) {
+    Count count;
+    for (std::size_t turns = 0; turns < 3; ++turns)
+        for (const std::int64_t step : {1, 2}) {
+            SCOPED_TRACE(std::to_string(turns) + ", " + std::to_string(step));
+            std::vector<Operand> operands;
+            std::vector<Expression> tubes;
+            for (std::int64_t i = 0; i < 3; ++i) {
+                const auto bar = [&](std::int64_t in) {
+                    return reference::axes_rotated(
+                        reference::box({in, in, 0}, {20 - in, 20 - in, 9}), turns);
+                };
+                tubes.push_back(Expression::node(
+                    Kind::Difference,
+                    {Expression::leaf(operands.size()), Expression::leaf(operands.size() + 1)}));
+                operands.push_back(bar(2 * i));
+                operands.push_back(bar(2 * i + step));
+            }
+            expect_agreement(operands, Expression::node(Kind::Union, tubes), count);
+        }
+    EXPECT_EQ(count.without_tree, 6);
+    EXPECT_EQ(count.by_tree, 0);
+}
+
+// Moved the wrong way, meshes leave gaps and sheets in every fourth formula.
+TEST(ManyMeshes, SheetsOnASmallGrid) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 650000);
+        const auto operands = reference::random_family(random, 3 + seed % 4, true);
+        const Expression formula =
+            seed % 3 == 0 ? random_formula(random, operands.size(),
+                                           seed % 2 == 0 ? Kind::Union : Kind::Intersection)
+                          : random_nested(random, 0, operands.size());
+        expect_agreement(operands, formula, count, &trisect::detail::evaluate_many_with_sheets);
+    }
+    EXPECT_GT(count.without_tree, 147);
+    EXPECT_GT(count.with_sheets, 30);
+    EXPECT_LT(count.by_tree, 5);
+}
+
+// Plates lie on each other in one plane, turned against each other, so that edges of sheets cross;
+// some cover others twice.
+TEST(ManyMeshes, SheetsLieOnEachOther) {
+    const reference::LatticePolygon square{{0, 0}, {12, 0}, {12, 12}, {0, 12}};
+    const reference::LatticePolygon turned{{6, -3}, {15, 6}, {6, 15}, {-3, 6}};
+    const reference::LatticePolygon wide{{-2, 3}, {14, 2}, {14, 10}, {-2, 9}};
+    std::vector<Operand> operands{reference::prism(square, 0, 4), reference::prism(turned, 4, 8),
+                                  reference::prism(wide, 0, 4), reference::prism(wide, 4, 7),
+                                  reference::box({2, 2, 4}, {10, 11, 9})};
+    const auto leaf = [](std::size_t i) { return Expression::leaf(i); };
+    const auto node = [](Kind kind, const std::vector<Expression>& terms) {
+        return Expression::node(kind, terms);
+    };
+    Count count;
+    for (const Expression& formula :
+         {of_all(Kind::Union, 5),
+          node(Kind::Union, {node(Kind::Difference, {leaf(0), leaf(3)}),
+                             node(Kind::Difference, {leaf(1), leaf(2)}), leaf(4)}),
+          node(Kind::Difference, {node(Kind::Union, {leaf(0), leaf(1)}), leaf(2), leaf(3)}),
+          node(Kind::Union, {node(Kind::Intersection, {leaf(0), leaf(2)}),
+                             node(Kind::Intersection, {leaf(1), leaf(3)})}),
+          node(Kind::Union, {node(Kind::Difference, {leaf(2), leaf(0)}),
+                             node(Kind::Difference, {leaf(4), leaf(1)}), leaf(3)})})
+        for (std::size_t turns = 0; turns < 3; ++turns) {
+            std::vector<Operand> all;
+            for (const Operand& o : operands) all.push_back(reference::axes_rotated(o, turns));
+            expect_agreement(all, formula, count);
+            expect_agreement(all, formula, count, &trisect::detail::evaluate_many_with_sheets);
+        }
+    EXPECT_EQ(count.without_tree, 30);
+    EXPECT_GT(count.with_sheets, 5);
     EXPECT_EQ(count.by_tree, 0);
 }
 

@@ -34,6 +34,11 @@ struct FacetBox {
             hi[k] = std::max(hi[k], box.hi[k]);
         }
     }
+    [[nodiscard]] bool meets(const FacetBox& box) const {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (box.hi[k] < lo[k] || box.lo[k] > hi[k]) return false;
+        return true;
+    }
     [[nodiscard]] bool may_contain(const Approximation& p) const {
         for (std::size_t k = 0; k < 3; ++k)
             if (p.c[k] + error_slack * p.error < lo[k] || p.c[k] - error_slack * p.error > hi[k])
@@ -54,6 +59,12 @@ public:
     [[nodiscard]] bool all_around(const Approximation& a, const Approximation& b,
                                   const Visit& visit) const {
         return boxes_.empty() || all_around(0, a, b, visit);
+    }
+
+    /// Calls `visit` with the facets of all boxes that meet this one.
+    template <class Visit>
+    void for_each_meeting(const FacetBox& box, const Visit& visit) const {
+        if (!boxes_.empty()) for_each_meeting(0, box, visit);
     }
 
 private:
@@ -95,6 +106,18 @@ private:
             std::span(boxes_).subspan(node.begin, node.end - node.begin), [&](const FacetBox& box) {
                 return !box.may_contain(a) || !box.may_contain(b) || visit(box.facet);
             });
+    }
+
+    template <class Visit>
+    void for_each_meeting(std::size_t number, const FacetBox& box, const Visit& visit) const {
+        const Node& node = nodes_[number];
+        if (!node.around.meets(box)) return;
+        if (node.second != 0) {
+            for_each_meeting(number + 1, box, visit);
+            return for_each_meeting(node.second, box, visit);
+        }
+        for (std::size_t i = node.begin; i < node.end; ++i)
+            if (boxes_[i].meets(box)) visit(boxes_[i].facet);
     }
 
     std::vector<FacetBox> boxes_;
