@@ -41,27 +41,34 @@ public:
         list_outlines();
         find_pairs();
         if (opposite_.empty()) return true;
-        if (make_crossings()) {
-            split_edges();
-            list_outlines();
+        if (make_crossings()) split_edges();
+        for (Outline& o : outlines_) {
+            if (!o.has_opposite) continue;
+            o.left.assign(edges_.begin() + o.first, edges_.begin() + o.end);
+            cancel_slits(o.left);
         }
-        for (Outline& o : outlines_)
-            if (o.has_opposite) cancel_slits(o.edges);
         for (const auto& [a, b] : opposite_)
             if (!remove_common(outlines_[a], outlines_[b])) return false;
-        edges_.clear();
-        for (const Outline& o : outlines_)
-            edges_.insert(edges_.end(), o.edges.begin(), o.edges.end());
+        std::vector<BoundaryEdge> out;
+        out.reserve(edges_.size());
+        for (const Outline& o : outlines_) {
+            const Edges edges = o.has_opposite ? Edges(o.left) : edges_of(o);
+            out.insert(out.end(), edges.begin(), edges.end());
+        }
+        edges_.swap(out);
         return true;
     }
 
 private:
+    using Edges = std::span<const BoundaryEdge>;
     // What there is of a facet.
     struct Outline {
         std::int32_t facet = -1;
         bool has_opposite = false;
         FacetBox box;
-        std::vector<BoundaryEdge> edges;
+        std::ptrdiff_t first = 0;  // of its edges
+        std::ptrdiff_t end = 0;
+        std::vector<BoundaryEdge> left;  // where it has an opposite, so far
     };
     // Numbers of outlines.
     struct OfPlane {
@@ -74,7 +81,11 @@ private:
     [[nodiscard]] const BoundaryFacet& facet(const Outline& o) const {
         return parts_.facets[as_index(o.facet)];
     }
+    [[nodiscard]] Edges edges_of(const Outline& o) const {
+        return {edges_.begin() + o.first, edges_.begin() + o.end};
+    }
     void list_outlines();
+    void list_edges();
     [[nodiscard]] double plane_number(const Outline& o, double extent) const;
     void find_pairs();
     void add_to_plane(std::vector<OfPlane>& planes, std::uint32_t number) const;
@@ -88,11 +99,10 @@ private:
     void split_edges();
     static void cancel_slits(std::vector<BoundaryEdge>& edges);
     [[nodiscard]] bool remove_common(Outline& a, Outline& b);
-    static void match_edges(const Outline& a, const Outline& b, std::span<Fate> of_a,
-                            std::span<Fate> of_b);
+    static void match_edges(Edges a, Edges b, std::span<Fate> of_a, std::span<Fate> of_b);
     [[nodiscard]] bool decide(const Outline& own, const Outline& other,
                               std::span<Fate> fates) const;
-    static void distribute(const Outline& own, std::span<const Fate> fates,
+    static void distribute(Edges own, std::span<const Fate> fates,
                            std::vector<BoundaryEdge>& to_own, std::vector<BoundaryEdge>& to_other,
                            std::int32_t other);
     [[nodiscard]] std::optional<bool> is_inside(const BoundaryEdge& edge,
@@ -114,18 +124,23 @@ private:
     std::vector<PointId> crossings_;
 };
 
+// Edges of one facet follow each other.
 void Sheets::list_outlines() {
-    std::ranges::stable_sort(edges_, {}, &BoundaryEdge::facet);
-    const bool is_first = outlines_.empty();
-    std::size_t number = 0;
-    for (std::size_t i = 0; i < edges_.size(); ++number) {
-        if (is_first) outlines_.emplace_back().facet = edges_[i].facet;
-        Outline& o = outlines_[number];
-        o.edges.clear();
-        for (; i < edges_.size() && edges_[i].facet == o.facet; ++i) {
-            o.edges.push_back(edges_[i]);
-            o.box.add(bench_.approximation(edges_[i].from));
-        }
+    for (const BoundaryEdge& e : edges_) {
+        if (outlines_.empty() || outlines_.back().facet != e.facet)
+            outlines_.emplace_back().facet = e.facet;
+        outlines_.back().box.add(bench_.approximation(e.from));
+    }
+    list_edges();
+}
+
+void Sheets::list_edges() {
+    std::ptrdiff_t at = 0;
+    const auto count = std::ssize(edges_);
+    for (Outline& o : outlines_) {
+        o.first = at;
+        while (at < count && edges_[as_index(at)].facet == o.facet) ++at;
+        o.end = at;
     }
 }
 
@@ -209,10 +224,10 @@ bool Sheets::make_crossings() {
 }
 
 void Sheets::cross_edges(const Outline& a, const Outline& b) {
-    for (const BoundaryEdge& e : a.edges) {
+    for (const BoundaryEdge& e : edges_of(a)) {
         const FacetBox box = box_of(e);
         if (!box.meets(b.box)) continue;
-        for (const BoundaryEdge& f : b.edges)
+        for (const BoundaryEdge& f : edges_of(b))
             if (box.meets(box_of(f))) cross(a, e, f);
     }
 }
@@ -260,9 +275,11 @@ void Sheets::split_edges() {
     std::vector<BoundaryEdge> out;
     splitter.split(edges_, out);
     edges_.swap(out);
+    list_edges();
 }
 
-// Edges that the facet has in both directions: strips without a width end there.
+// Takes out edges that the facet has in both directions, at strips without a width, and sorts by
+// the ends.
 void Sheets::cancel_slits(std::vector<BoundaryEdge>& edges) {
     std::ranges::stable_sort(edges, {}, [](const BoundaryEdge& e) { return ends_of(e); });
     std::size_t left = 0;
@@ -284,52 +301,51 @@ void Sheets::cancel_slits(std::vector<BoundaryEdge>& edges) {
 // No edge ends or begins inside another one, so that each is inside the other outline, or outside,
 // all along.
 bool Sheets::remove_common(Outline& a, Outline& b) {
-    if (a.edges.empty() || b.edges.empty()) return true;
-    std::vector<Fate> of_a(a.edges.size(), Fate::Unknown);
-    std::vector<Fate> of_b(b.edges.size(), Fate::Unknown);
-    match_edges(a, b, of_a, of_b);
+    if (a.left.empty() || b.left.empty()) return true;
+    std::vector<Fate> of_a(a.left.size(), Fate::Unknown);
+    std::vector<Fate> of_b(b.left.size(), Fate::Unknown);
+    match_edges(a.left, b.left, of_a, of_b);
     if (!decide(a, b, of_a) || !decide(b, a, of_b)) return false;
+    const auto stays = [](Fate fate) { return fate == Fate::Stays; };
+    if (std::ranges::all_of(of_a, stays) && std::ranges::all_of(of_b, stays)) return true;
     std::vector<BoundaryEdge> new_a;
     std::vector<BoundaryEdge> new_b;
-    distribute(a, of_a, new_a, new_b, b.facet);
-    distribute(b, of_b, new_b, new_a, a.facet);
+    distribute(a.left, of_a, new_a, new_b, b.facet);
+    distribute(b.left, of_b, new_b, new_a, a.facet);
     cancel_slits(new_a);
     cancel_slits(new_b);
-    a.edges = std::move(new_a);
-    b.edges = std::move(new_b);
+    a.left = std::move(new_a);
+    b.left = std::move(new_b);
     return true;
 }
 
 // Those that both have. With the parts on the same side they run against each other.
-void Sheets::match_edges(const Outline& a, const Outline& b, std::span<Fate> of_a,
-                         std::span<Fate> of_b) {
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> by_ends;
-    for (std::uint32_t i = 0; i < b.edges.size(); ++i) by_ends.emplace_back(ends_of(b.edges[i]), i);
-    std::ranges::sort(by_ends);
-    for (std::size_t i = 0; i < a.edges.size(); ++i) {
-        const std::pair key(ends_of(a.edges[i]), std::uint32_t{0});
-        const auto at = std::ranges::lower_bound(by_ends, key);
-        if (at == by_ends.end() || at->first != key.first) continue;
-        const bool is_against = b.edges[at->second].from == a.edges[i].to;
-        of_a[i] = of_b[at->second] = is_against ? Fate::Vanishes : Fate::Stays;
+// Both are sorted by their ends.
+void Sheets::match_edges(Edges a, Edges b, std::span<Fate> of_a, std::span<Fate> of_b) {
+    std::size_t j = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const std::uint64_t ends = ends_of(a[i]);
+        while (j < b.size() && ends_of(b[j]) < ends) ++j;
+        if (j == b.size()) return;
+        if (ends_of(b[j]) != ends) continue;
+        of_a[i] = of_b[j] = b[j].from == a[i].to ? Fate::Vanishes : Fate::Stays;
     }
 }
 
 bool Sheets::decide(const Outline& own, const Outline& other, std::span<Fate> fates) const {
     for (std::size_t i = 0; i < fates.size(); ++i) {
         if (fates[i] != Fate::Unknown) continue;
-        const std::optional<bool> inside = is_inside(own.edges[i], other);
+        const std::optional<bool> inside = is_inside(own.left[i], other);
         if (!inside) return false;
         fates[i] = *inside ? Fate::GoesOver : Fate::Stays;
     }
     return true;
 }
 
-void Sheets::distribute(const Outline& own, std::span<const Fate> fates,
-                        std::vector<BoundaryEdge>& to_own, std::vector<BoundaryEdge>& to_other,
-                        std::int32_t other) {
+void Sheets::distribute(Edges own, std::span<const Fate> fates, std::vector<BoundaryEdge>& to_own,
+                        std::vector<BoundaryEdge>& to_other, std::int32_t other) {
     for (std::size_t i = 0; i < fates.size(); ++i) {
-        BoundaryEdge e = own.edges[i];
+        BoundaryEdge e = own[i];
         if (fates[i] == Fate::Stays) to_own.push_back(e);
         if (fates[i] != Fate::GoesOver) continue;
         e.facet = other;
@@ -344,7 +360,7 @@ std::optional<bool> Sheets::is_inside(const BoundaryEdge& edge, const Outline& o
     if (!box_of(edge).meets(outline.box)) return false;
     const PlaneId across = edge.line.plane;
     bool inside = false;
-    for (const BoundaryEdge& e : outline.edges) {
+    for (const BoundaryEdge& e : outline.left) {
         const int from = bench_.side(e.from, across);
         const int to = bench_.side(e.to, across);
         if (from == to) continue;
