@@ -470,11 +470,14 @@ std::vector<OperandShifts::Growth> growths_of(const ManyMeshes& meshes) {
     return out;
 }
 
-// How often all may be done once more, and whether meshes grow and shrink the wrong way.
+// How often all may be done, and whether meshes grow and shrink the wrong way.
 struct Turns {
     int most = 4;
     bool are_backwards = false;
 };
+
+// Sheets cost little beside another turn where so many facets come to each move that is wanted.
+constexpr std::size_t facets_to_leave_sheets = 24;
 
 // What all operands leave open together, and the facets in special position.
 struct CommonOfAll {
@@ -504,8 +507,8 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
     std::ranges::sort(common.special);
 }
 
-// Nothing where it cannot be found. Once no other moves are found, or after the last turn, sheets
-// of no thickness are left.
+// Nothing where it cannot be found. Sheets of no thickness are left where they are few, once no
+// other moves are found, and after the last turn.
 std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& solids,
                                          const EvaluateSettings& options, const Turns& turns,
                                          std::uint32_t threads, EvaluateStats& stats) {
@@ -529,12 +532,12 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
                 wanted.push_back(w);
             }
         });
+        std::ranges::sort(wanted);
+        wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+        const bool leaves_sheets =
+            turn + 1 == turns.most || facets_to_leave_sheets * wanted.size() < meshes.facet_count();
         std::optional<OperandShifts> next;
-        if (!as_wanted && turn + 1 < turns.most) {
-            std::ranges::sort(wanted);
-            wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-            next = OperandShifts::satisfying(growths, wanted);
-        }
+        if (!as_wanted && !leaves_sheets) next = OperandShifts::satisfying(growths, wanted);
         if (!next) {
             add_sharing(out, meshes.facet_count());
             out.has_sheets = !as_wanted;

@@ -100,8 +100,9 @@ private:
     static void cancel_slits(std::vector<BoundaryEdge>& edges);
     [[nodiscard]] bool remove_common(Outline& a, Outline& b);
     static void match_edges(Edges a, Edges b, std::span<Fate> of_a, std::span<Fate> of_b);
-    [[nodiscard]] bool decide(const Outline& own, const Outline& other,
-                              std::span<Fate> fates) const;
+    [[nodiscard]] bool decide(const Outline& own, const Outline& other, std::span<Fate> fates);
+    void list_apart(const Outline& own, const Outline& other);
+    void spread(Edges edges, std::uint32_t first, Fate fate, std::span<Fate> fates);
     static void distribute(Edges own, std::span<const Fate> fates,
                            std::vector<BoundaryEdge>& to_own, std::vector<BoundaryEdge>& to_other,
                            std::int32_t other);
@@ -122,6 +123,9 @@ private:
     std::vector<Pair> opposite_;   // facets of one plane that face opposite ways
     std::vector<Pair> alongside_;  // and those that face the same way
     std::vector<PointId> crossings_;
+    // Of two outlines:
+    std::vector<PointId> common_;  // vertices of the other one
+    std::vector<std::pair<PointId, std::uint32_t>> apart_;
 };
 
 // Edges of one facet follow each other.
@@ -332,14 +336,43 @@ void Sheets::match_edges(Edges a, Edges b, std::span<Fate> of_a, std::span<Fate>
     }
 }
 
-bool Sheets::decide(const Outline& own, const Outline& other, std::span<Fate> fates) const {
-    for (std::size_t i = 0; i < fates.size(); ++i) {
+bool Sheets::decide(const Outline& own, const Outline& other, std::span<Fate> fates) {
+    list_apart(own, other);
+    for (std::uint32_t i = 0; i < fates.size(); ++i) {
         if (fates[i] != Fate::Unknown) continue;
         const std::optional<bool> inside = is_inside(own.left[i], other);
         if (!inside) return false;
-        fates[i] = *inside ? Fate::GoesOver : Fate::Stays;
+        spread(own.left, i, *inside ? Fate::GoesOver : Fate::Stays, fates);
     }
     return true;
+}
+
+// Vertices of an outline that the other one does not have, with their edges.
+void Sheets::list_apart(const Outline& own, const Outline& other) {
+    common_.clear();
+    for (const BoundaryEdge& e : other.left) common_.push_back(e.from);
+    std::ranges::sort(common_);
+    apart_.clear();
+    for (std::uint32_t i = 0; i < own.left.size(); ++i)
+        for (const PointId p : {own.left[i].from, own.left[i].to})
+            if (!std::ranges::binary_search(common_, p)) apart_.emplace_back(p, i);
+    std::ranges::sort(apart_);
+}
+
+// What goes on at a vertex that the other outline does not have stays on the same side of that.
+void Sheets::spread(Edges edges, std::uint32_t first, Fate fate, std::span<Fate> fates) {
+    fates[first] = fate;
+    std::vector<std::uint32_t> found{first};
+    while (!found.empty()) {
+        const BoundaryEdge& e = edges[found.back()];
+        found.pop_back();
+        for (const PointId p : {e.from, e.to}) {
+            auto at = std::ranges::lower_bound(apart_, std::pair(p, std::uint32_t{0}));
+            for (; at != apart_.end() && at->first == p; ++at)
+                if (std::exchange(fates[at->second], fate) == Fate::Unknown)
+                    found.push_back(at->second);
+        }
+    }
 }
 
 void Sheets::distribute(Edges own, std::span<const Fate> fates, std::vector<BoundaryEdge>& to_own,
