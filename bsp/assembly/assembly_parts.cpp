@@ -759,12 +759,16 @@ bool Gatherer::is_same(PointId value, PointId name) {
 bool Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
     std::vector<BoundaryEdge> special;
     std::vector<PointId> vertices;
-    for (const BoundaryEdge& e : edges) {
-        if (!out_.facets[as_index(e.facet)].is_special) {
-            out_.edges.push_back(e);
-        } else if (e.from != e.to) {
-            special.push_back(e);
-            vertices.insert(vertices.end(), {e.from, e.to});
+    const auto is_special = [&](const BoundaryEdge& e) {
+        return out_.facets[as_index(e.facet)].is_special;
+    };
+    for (auto e = edges.begin(); e != edges.end();) {
+        const auto end = std::find_if(e, edges.end(), is_special);
+        out_.edges.insert(out_.edges.end(), e, end);
+        for (e = end; e != edges.end() && is_special(*e); ++e) {
+            if (e->from == e->to) continue;
+            special.push_back(*e);
+            vertices.insert(vertices.end(), {e->from, e->to});
         }
     }
     if (special.empty()) return true;
