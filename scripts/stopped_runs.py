@@ -63,7 +63,9 @@ class Killer:
             os.kill(victim, signal.SIGKILL)
         try:
             process.wait(PATIENCE)
-        except subprocess.TimeoutExpired:  # mpirun may wait for ever where a rank dies while it starts
+            if victim != process.pid and process.returncode == -signal.SIGKILL:
+                self.killed['mpirun that waited for itself and was ended'] += 1
+        except subprocess.TimeoutExpired:
             self.killed['mpirun that did not end'] += 1
             process.kill()
             process.wait()

@@ -21,6 +21,7 @@
 
 #include <trisect/kernel/error.h>
 
+#include "launcher_watch.h"
 #include "open_mpi.h"
 #include "rank_clash_command.h"
 #include "rank_slab_command.h"
@@ -66,6 +67,7 @@ void keep_signals() {
 
 int main(int argc, char** argv) {
     end_with_parent();
+    trisect::app::LauncherWatch launcher;
     keep_signals();
     // Clashes are looked for before MPI is needed.
     const auto place = trisect::app::place_before_mpi();
@@ -93,5 +95,6 @@ int main(int argc, char** argv) {
         MPI_Abort(MPI_COMM_WORLD, code);
     }
     if (trisect::app::has_begun_mpi()) MPI_Finalize();
+    launcher.end();
     return is_first ? code : 0;
 }
