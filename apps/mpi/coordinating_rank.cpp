@@ -154,9 +154,10 @@ void CoordinatingRank::begin() {
     read_manifest();
     summaries_.clear();
     start_.manifest = options_.clash.manifest;
-    // Slices of another size are other pieces.
-    start_.key = fmt::format("{}/{}", clash_run_key(manifest_, options_.clash),
-                             RankWorker::pairs_of_slice(options_.clash));
+    // Slices and shares of another size are other pieces.
+    start_.key = fmt::format("{}/{}/{}", clash_run_key(manifest_, options_.clash),
+                             RankWorker::pairs_of_slice(options_.clash),
+                             Coordinator::comparisons_of_a_share);
     start_.parts = manifest_.size();
     start_.files = manifest_.files;
     start_.groups = manifest_.groups;
@@ -359,7 +360,7 @@ void CoordinatingRank::write_partial() noexcept {
         session_.write_output(partial_name(), clash_json(manifest_, report));
         session_.note(fmt::format("{}: {} clashes until now, {} of {} cells not done",
                                   partial_name(), report.count(), report.undone.size(),
-                                  coordinator_->tiles()));
+                                  coordinator_->cells()));
     } catch (const std::exception& e) {
         session_.note(partial_name() + ": " + e.what());
     }
@@ -391,7 +392,7 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
     for (const PieceCost& cost : coordinator_->costs()) pairs += cost.pairs;
     out.document["files"] = manifest_.files.size();
     out.document["candidates"] = pairs;
-    out.document["tiles"] = coordinator_->tiles();
+    out.document["tiles"] = coordinator_->cells();
     out.document["listed"] = coordinator_->listed();
     out.document["messages"] = ranks_.messages();
     out.document["message_bytes"] = ranks_.bytes();
@@ -414,7 +415,7 @@ Outcome CoordinatingRank::outcome(const ClashReport& report) const {
     out.document["seconds"] = session_.seconds();
     const std::string remarks =
         fmt::format("{} parts of {} files in {} tiles on {} ranks, {} pairs of boxes, {} clashes",
-                    manifest_.size(), manifest_.files.size(), coordinator_->tiles(), all_.size(),
+                    manifest_.size(), manifest_.files.size(), coordinator_->cells(), all_.size(),
                     pairs, report.count());
     out.remarks = out.remarks.empty() ? remarks : remarks + '\n' + out.remarks;
     return out;

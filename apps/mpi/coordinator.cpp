@@ -27,6 +27,8 @@ constexpr std::size_t pieces_of_unknown_cost = 16;
 // When a rank gets its next piece only after the last one: so few are left for each. It waits for a
 // message then, a few times, which is less than a tile of many parts takes.
 constexpr std::size_t pieces_of_the_end = 4;
+// Of the pairs of a tile.
+constexpr std::uint64_t most_shares = 4096;
 // Which take about a millisecond to read.
 constexpr std::uint64_t bytes_of_a_short_file = std::uint64_t{32} << 10;
 
@@ -73,7 +75,7 @@ void Coordinator::take_over(const FinishedPieces& done) {
 bool Coordinator::next_file(RankOrder& order) {
     if (next_file_ == file_order_.size()) return false;
     order.kind = RankOrder::Kind::File;
-    order.pieces.push_back({file_order_[next_file_++], 0, 0});
+    order.pieces.push_back({file_order_[next_file_++], 0, 0, {}});
     return true;
 }
 
@@ -104,7 +106,7 @@ std::size_t Coordinator::ahead() const {
 void Coordinator::add_piece(RankOrder& order, std::uint64_t number) const {
     const Tile& tile = tiles_[tile_of(number)];
     order.owner = tile.owner;
-    order.pieces.push_back({number, tile.region, tile.number});
+    order.pieces.push_back({number, tile.region, tile.number, tile.share});
 }
 
 // Whoever has the parts of a tile needs no message for its slices.
@@ -174,8 +176,8 @@ void Coordinator::accept(RankResult&& result) {
             --files_left_;
             break;
         case RankResult::Kind::Tile:
-            costs_.push_back({result.piece, tiles_[tile_of(result.piece)].facts.parts, result.pairs,
-                              result.work, result.seconds});
+            costs_.push_back({result.piece, parts_of_slice(result.piece), result.pairs, result.work,
+                              result.seconds});
             seconds_ += result.seconds;
             for (ClashPart& part : result.parts) manifest_.parts.push_back(std::move(part));
             add_slice(result.piece, result.slices, std::move(result.records));
@@ -205,8 +207,12 @@ void Coordinator::begin_tiles(const RegionPlan& plan, const std::vector<TileSurv
     for (std::uint32_t r = 0; r < regions.size(); ++r) {
         const std::uint32_t owner = plan.owners[r];
         std::uint32_t number = 0;
-        for (const TileFacts& facts : *regions[r])
-            tiles_.push_back({facts, r, number++, owner, 0, 0});
+        for (const TileFacts& facts : *regions[r]) {
+            ClashShare share{0, shares_of(facts.parts)};
+            for (; share.number < share.count; ++share.number)
+                tiles_.push_back({facts, share, r, number, owner, 0, 0});
+            ++number;
+        }
     }
     has_tiles_ = true;
     tiles_left_ = tiles_.size();
@@ -258,8 +264,26 @@ void Coordinator::add_slice(std::uint64_t piece, std::uint32_t slices,
 
 std::uint64_t Coordinator::listed() const {
     std::uint64_t out = 0;
-    for (const Tile& tile : tiles_) out += tile.facts.parts;
+    for (const Tile& tile : tiles_)
+        if (tile.share.number == 0) out += tile.facts.parts;
     return out;
+}
+
+std::size_t Coordinator::cells() const {
+    return static_cast<std::size_t>(
+        std::ranges::count(tiles_, 0U, [](const Tile& tile) { return tile.share.number; }));
+}
+
+std::uint32_t Coordinator::shares_of(std::uint64_t parts) {
+    const std::uint64_t shares = parts * parts / 2 / comparisons_of_a_share;
+    return static_cast<std::uint32_t>(std::clamp<std::uint64_t>(shares, 1, most_shares));
+}
+
+// Those of a tile are counted once.
+std::size_t Coordinator::parts_of_slice(std::uint64_t piece) const {
+    if (slice_of(piece) != 0) return 0;
+    const Tile& tile = tiles_[tile_of(piece)];
+    return (tile.facts.parts + tile.share.number) / tile.share.count;
 }
 
 std::string Coordinator::costs_table() const {
@@ -286,8 +310,11 @@ std::vector<Json> Coordinator::undone() const {
         for (const double v : p) values.push_back(std::isfinite(v) ? Json(v) : Json());
         return values;
     };
+    // Shares of one cell follow each other.
+    bool is_listed = false;
     for (const Tile& tile : tiles_) {
-        if (is_finished(tile)) continue;
+        if (tile.share.number == 0) is_listed = false;
+        if (is_finished(tile) || std::exchange(is_listed, true)) continue;
         Json record;
         record["lo"] = corner(tile.facts.cell.lo);
         record["hi"] = corner(tile.facts.cell.hi);

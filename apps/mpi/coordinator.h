@@ -31,6 +31,9 @@ struct PieceCost {
 /// pieces of their own. So no tile is too much for one rank. A rank does what is of its own
 /// regions, and when nothing of that is left, what is of the rank that has most.
 ///
+/// Where many parts are in one place, to look for the pairs of a tile is much as well: the tile is
+/// cut into shares of its pairs first, and each of these is a tile by itself here.
+///
 /// An order has many pieces while many are left, a fixed part of what is left to a rank, and at the
 /// end single ones. A rank hands back what it does not come to within some time.
 ///
@@ -67,6 +70,13 @@ public:
     [[nodiscard]] ClashReport take_report();
     [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
     [[nodiscard]] std::size_t tiles_left() const { return tiles_left_; }
+    /// Of space: tiles that are shares of the same pairs are one.
+    [[nodiscard]] std::size_t cells() const;
+    /// About a millisecond of boxes that are compared, if all are in one place. Journals do not
+    /// depend on ranks, so that this is fixed.
+    static constexpr std::uint64_t comparisons_of_a_share = std::uint64_t{1} << 18;
+    /// How many shares of its pairs a tile of so many parts has.
+    [[nodiscard]] static std::uint32_t shares_of(std::uint64_t parts);
     /// How often parts are in tiles.
     [[nodiscard]] std::uint64_t listed() const;
     /// What each slice of this run cost, as CSV.
@@ -76,6 +86,7 @@ public:
 private:
     struct Tile {
         TileFacts facts;
+        ClashShare share;
         std::uint32_t region = 0;
         std::uint32_t number = 0;  // in the region
         std::uint32_t owner = 0;
@@ -87,6 +98,7 @@ private:
 
     void take_over(const FinishedPieces& done);
     void take_over_tiles();
+    [[nodiscard]] std::size_t parts_of_slice(std::uint64_t piece) const;
     void add_slice(std::uint64_t piece, std::uint32_t slices, std::vector<ClashText>&& found);
     [[nodiscard]] bool next_file(RankOrder& order);
     [[nodiscard]] bool next_slices(std::size_t rank, RankOrder& order);

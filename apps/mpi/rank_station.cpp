@@ -83,11 +83,11 @@ void RankStation::handle(const Ranks::Message& message) {
             return add_parts(message.bytes);
         case Ranks::Fetch: {
             RankTask task{rank_order_of(message.bytes), {}, nullptr};
-            task.fetched = store_->fetched(task.order.pieces);
+            task.fetched = std::make_shared<const FetchedTiles>(store_->fetched(task.order.pieces));
             return ranks_.send(message.from, Ranks::Task, bytes_of(task));
         }
         case Ranks::Task:
-            return local_->give(rank_task_of(message.bytes));
+            return take_task(rank_task_of(message.bytes));
         default:
             throw Error(ErrorCode::Internal, "a message of no kind");
     }
@@ -123,8 +123,24 @@ void RankStation::obey(const RankOrder& order) {
     if (order.kind == RankOrder::Kind::File) return local_->give({order, {}, nullptr});
     if (order.owner == own_)
         local_->give({order, {}, &*store_});
+    else if (has_kept(order))
+        local_->give({order, kept_tile_.fetched, nullptr});
     else
         ranks_.send(static_cast<int>(order.owner), Ranks::Fetch, bytes_of(order));
+}
+
+// Where many parts are in one place, one tile has many orders.
+void RankStation::take_task(RankTask task) {
+    if (task.fetched->tiles.size() == 1) kept_tile_ = task;
+    local_->give(std::move(task));
+}
+
+bool RankStation::has_kept(const RankOrder& order) const {
+    if (!kept_tile_.fetched || order.owner != kept_tile_.order.owner) return false;
+    const RankPiece& kept = kept_tile_.order.pieces.front();
+    return std::ranges::all_of(order.pieces, [&](const RankPiece& piece) {
+        return piece.region == kept.region && piece.tile == kept.tile;
+    });
 }
 
 void RankStation::survey(const std::string& files) {

@@ -60,6 +60,8 @@ public:
 
 private:
     void handle(const Ranks::Message& message);
+    void take_task(RankTask task);
+    [[nodiscard]] bool has_kept(const RankOrder& order) const;
     void compare(const std::string& hashes);
     void start(const std::string& bytes);
     void obey(const RankOrder& order);
@@ -90,6 +92,7 @@ private:
     std::vector<std::string> early_;  // parts from ranks that had the regions first
     std::size_t sources_left_ = 0;
     std::optional<PartStore> store_;
+    RankTask kept_tile_;       // the last one of another rank that came alone
     std::uint64_t boxes_ = 0;  // computed
     bool has_ended_ = false;
 };

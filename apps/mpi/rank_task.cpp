@@ -2,6 +2,7 @@
 #include "rank_task.h"
 
 #include <array>
+#include <utility>
 
 #include "part_store.h"
 
@@ -172,16 +173,17 @@ RankOrder rank_order_of(const std::string& bytes) {
 
 std::string bytes_of(const RankTask& task) {
     MessageWriter out;
+    const FetchedTiles& fetched = *task.fetched;
     put_order(out, task.order);
-    out.put(std::uint64_t{task.fetched.parts.size()});
-    for (const ClashPart& part : task.fetched.parts) put_part(out, part);
-    out.put(std::uint64_t{task.fetched.tiles.size()});
-    for (const TileParts& tile : task.fetched.tiles) {
+    out.put(std::uint64_t{fetched.parts.size()});
+    for (const ClashPart& part : fetched.parts) put_part(out, part);
+    out.put(std::uint64_t{fetched.tiles.size()});
+    for (const TileParts& tile : fetched.tiles) {
         out.put(tile.cell);
         out.put_list(tile.boxes);
         out.put_list(tile.parts);
     }
-    out.put_list(task.fetched.places);
+    out.put_list(fetched.places);
     return out.take();
 }
 
@@ -189,25 +191,30 @@ RankTask rank_task_of(const std::string& bytes) {
     MessageReader in(bytes);
     RankTask out;
     out.order = get_order(in);
-    out.fetched.parts.resize(in.get<std::uint64_t>());
-    for (ClashPart& part : out.fetched.parts) part = get_part(in);
-    out.fetched.tiles.resize(in.get<std::uint64_t>());
-    for (TileParts& tile : out.fetched.tiles) {
+    FetchedTiles fetched;
+    fetched.parts.resize(in.get<std::uint64_t>());
+    for (ClashPart& part : fetched.parts) part = get_part(in);
+    fetched.tiles.resize(in.get<std::uint64_t>());
+    for (TileParts& tile : fetched.tiles) {
         tile.cell = in.get<Bounds>();
         tile.boxes = in.get_list<ClashBox>();
         tile.parts = in.get_list<std::uint32_t>();
     }
-    out.fetched.places = in.get_list<std::uint32_t>();
+    fetched.places = in.get_list<std::uint32_t>();
+    out.fetched = std::make_shared<const FetchedTiles>(std::move(fetched));
     return out;
 }
 
 TileParts RankTask::tile(std::size_t piece) const {
-    if (store == nullptr) return fetched.tiles.at(fetched.places.at(piece));
-    return store->tile(order.pieces.at(piece).region, order.pieces.at(piece).tile);
+    if (store != nullptr)
+        return store->tile(order.pieces.at(piece).region, order.pieces.at(piece).tile);
+    // One tile is of all pieces, also of later orders.
+    const std::size_t place = fetched->tiles.size() == 1 ? 0 : fetched->places.at(piece);
+    return fetched->tiles.at(place);
 }
 
 const ClashPart& RankTask::part(std::uint32_t number) const {
-    return store == nullptr ? fetched.parts.at(number) : store->part(number);
+    return store == nullptr ? fetched->parts.at(number) : store->part(number);
 }
 
 std::string bytes_of(const RankAnswer& answer) {

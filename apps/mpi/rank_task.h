@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,10 @@ struct RankStart {
 
 /// A piece of work.
 struct RankPiece {
-    std::uint64_t number = 0;  ///< the file; the tile and the slice
+    std::uint64_t number = 0;  ///< the file; the share of a tile and the slice
     std::uint32_t region = 0;  ///< of the tile
     std::uint32_t tile = 0;    ///< in its region
+    ClashShare share;          ///< of its pairs
 };
 
 /// What to do next, one piece after the other.
@@ -58,7 +60,7 @@ struct TileParts {
 struct FetchedTiles {
     std::vector<ClashPart> parts;
     std::vector<TileParts> tiles;       ///< each once, where its pieces follow each other
-    std::vector<std::uint32_t> places;  ///< in these, of each piece of the order
+    std::vector<std::uint32_t> places;  ///< in these, of each piece of the order it was asked for
 };
 
 class PartStore;
@@ -66,8 +68,8 @@ class PartStore;
 /// An order with all that it needs.
 struct RankTask {
     RankOrder order;
-    FetchedTiles fetched;              ///< where the tiles are another rank's
-    const PartStore* store = nullptr;  ///< where they are its own
+    std::shared_ptr<const FetchedTiles> fetched;  ///< where the tiles are another rank's
+    const PartStore* store = nullptr;             ///< where they are its own
 
     [[nodiscard]] TileParts tile(std::size_t piece) const;
     [[nodiscard]] const ClashPart& part(std::uint32_t number) const;
@@ -111,6 +113,7 @@ struct RankAnswer {
 };
 
 /// Numbers of pieces of work, as journals have them.
+// A tile is a share of its pairs here, all of them but where many parts are in one place.
 [[nodiscard]] constexpr std::uint64_t tile_piece(std::uint64_t tile, std::uint64_t slice) {
     return tile << 24 | slice;
 }

@@ -113,11 +113,8 @@ void RankWorker::read_file(std::uint64_t file, RankResult& result) {
 void RankWorker::answer_slice(const RankTask& task, std::size_t at, RankResult& result) {
     result.kind = RankResult::Kind::Tile;
     // Orders of one tile follow each other: pairs are the same, by places in its list.
-    if (tile_ != tile_of(result.piece))
-        find_candidates(task, at);
-    else if (!are_parts_of_task_)
-        parts_ = task.tile(at);
-    are_parts_of_task_ = true;
+    take_tile(task, at);
+    if (tile_ != tile_of(result.piece)) find_candidates(task, task.order.pieces[at]);
     const std::size_t size =
         std::max(pairs_of_slice(options_), (pairs_.size() + most_slices - 1) / most_slices);
     const std::size_t slices = std::max<std::size_t>(1, (pairs_.size() + size - 1) / size);
@@ -153,12 +150,24 @@ void RankWorker::add_entry(const RankResult& result, Json&& found) {
     entries_ += ClashJournal::entry(result.piece, entry);
 }
 
+void RankWorker::take_tile(const RankTask& task, std::size_t at) {
+    const RankPiece& piece = task.order.pieces[at];
+    const TilePlace place(piece.region, piece.tile);
+    if (place_ == place && are_parts_of_task_) return;
+    const bool is_another = place_ != place;
+    place_.reset();
+    if (is_another) tile_.reset();
+    parts_ = task.tile(at);
+    are_parts_of_task_ = true;
+    if (is_another) sweep_ = ClashSweep(limits_, parts_.boxes);
+    place_ = place;
+}
+
 // By files, so that a model is asked for again while it is here.
-void RankWorker::find_candidates(const RankTask& task, std::size_t at) {
+void RankWorker::find_candidates(const RankTask& task, const RankPiece& piece) {
     tile_.reset();
     pairs_.clear();
-    parts_ = task.tile(at);
-    add_candidates(limits_, parts_.boxes, parts_.cell, pairs_);
+    sweep_.add_candidates(limits_, parts_.boxes, parts_.cell, piece.share, pairs_);
     const auto part_of = [&](std::uint32_t box) -> const ClashPart& {
         return task.part(parts_.parts[box]);
     };
@@ -170,7 +179,7 @@ void RankWorker::find_candidates(const RankTask& task, std::size_t at) {
         return std::tuple(a.file, b.file, std::string_view(a.id), std::string_view(b.id));
     };
     std::ranges::sort(pairs_, {}, key);
-    tile_ = tile_of(task.order.pieces[at].number);
+    tile_ = tile_of(piece.number);
 }
 
 void RankWorker::add_parts(const RankTask& task, const ClashCandidate& pair,

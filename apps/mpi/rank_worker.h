@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model_cache.h"
@@ -47,7 +48,8 @@ private:
     [[nodiscard]] RankResult done(const RankTask& task, std::size_t at);
     void read_file(std::uint64_t file, RankResult& result);
     void answer_slice(const RankTask& task, std::size_t at, RankResult& result);
-    void find_candidates(const RankTask& task, std::size_t at);
+    void take_tile(const RankTask& task, std::size_t at);
+    void find_candidates(const RankTask& task, const RankPiece& piece);
     void add_entry(const RankResult& result, Json&& found);
     void add_parts(const RankTask& task, const ClashCandidate& pair, RankResult& result) const;
     [[nodiscard]] std::vector<Json> answers(const RankTask& task, const ClashCandidate& pair);
@@ -60,7 +62,10 @@ private:
     ModelCache models_;
     const PartStore* store_ = nullptr;   // of which that is; null: another rank's
     std::optional<std::uint64_t> tile_;  // of which the pairs are
-    TileParts parts_;                    // of an own one its numbers, of another's those of a task
+    using TilePlace = std::pair<std::uint32_t, std::uint32_t>;  // a region, and a tile in it
+    std::optional<TilePlace> place_;                            // of which these are:
+    ClashSweep sweep_;
+    TileParts parts_;  // of an own one its numbers, of another's those of a task
     bool are_parts_of_task_ = false;
     std::vector<ClashCandidate> pairs_;
     std::string entries_;  // for the journal

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes are sorted along the axis on which they are shortest beside the whole, and each is compared
-// with those that begin before it ends. One long part costs a pass over what lies beside it.
+// One long part costs a pass over what lies beside it.
 #include "clash_pairs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trisect::app {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// One coordinate of a box, a part of it, as the sweep needs them side by side.
-struct SweptBox {
-    double lo = 0;
-    double hi = 0;
-    std::uint32_t at = 0;
-};
 
 std::size_t sweep_axis(std::span<const ClashBox> boxes) {
     std::array<double, 3> lo{infinity, infinity, infinity};
@@ -92,22 +85,31 @@ bool is_candidate(const ClashLimits& limits, const ClashBox& a, const ClashBox& 
     return limit >= 0 && meet(a.box, b.box, limit);
 }
 
-void add_candidates(const ClashLimits& limits, std::span<const ClashBox> boxes, const Bounds& cell,
-                    std::vector<ClashCandidate>& out) {
+// Where lower ends are the same, by place, so that shares of other processes are the same.
+ClashSweep::ClashSweep(const ClashLimits& limits, std::span<const ClashBox> boxes) {
     const std::size_t axis = sweep_axis(boxes);
-    std::vector<SweptBox> swept;
-    swept.reserve(boxes.size());
+    items_.reserve(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i)
-        swept.push_back(
+        items_.push_back(
             {boxes[i].box.lo[axis], next_above(boxes[i].box.hi[axis] + limits.most()), i});
-    std::ranges::sort(swept, {}, [](const SweptBox& b) { return b.lo; });
-    for (std::size_t i = 0; i < swept.size(); ++i)
-        for (std::size_t j = i + 1; j < swept.size() && swept[j].lo <= swept[i].hi; ++j) {
-            const ClashBox& p = boxes[swept[i].at];
-            const ClashBox& q = boxes[swept[j].at];
+    std::ranges::sort(items_, {}, [](const Item& item) { return std::pair(item.lo, item.at); });
+}
+
+void ClashSweep::add_candidates(const ClashLimits& limits, std::span<const ClashBox> boxes,
+                                const Bounds& cell, const ClashShare& share,
+                                std::vector<ClashCandidate>& out) const {
+    for (std::size_t i = share.number; i < items_.size(); i += share.count)
+        for (std::size_t j = i + 1; j < items_.size() && items_[j].lo <= items_[i].hi; ++j) {
+            const ClashBox& p = boxes[items_[i].at];
+            const ClashBox& q = boxes[items_[j].at];
             if (!is_candidate(limits, p, q) || !has_place_in(cell, p.box, q.box)) continue;
             out.push_back({std::min(p.part, q.part), std::max(p.part, q.part)});
         }
+}
+
+void add_candidates(const ClashLimits& limits, std::span<const ClashBox> boxes, const Bounds& cell,
+                    std::vector<ClashCandidate>& out) {
+    ClashSweep(limits, boxes).add_candidates(limits, boxes, cell, {}, out);
 }
 
 }  // namespace trisect::app

@@ -62,6 +62,35 @@ private:
 /// Whether some set has the two, and they are near enough for it.
 [[nodiscard]] bool is_candidate(const ClashLimits& limits, const ClashBox& a, const ClashBox& b);
 
+/// Every `count`-th of something, from the `number`-th on.
+struct ClashShare {
+    std::uint32_t number = 0;
+    std::uint32_t count = 1;
+};
+
+/// Boxes in the order of their lower ends along the axis on which they are shortest beside the
+/// whole: each is compared with those that begin before it ends.
+class ClashSweep {
+public:
+    ClashSweep() = default;
+    ClashSweep(const ClashLimits& limits, std::span<const ClashBox> boxes);
+
+    /// As add_candidates, of pairs whose first box in the order is in the share: all shares
+    /// together have each pair once. \pre what the constructor was given
+    void add_candidates(const ClashLimits& limits, std::span<const ClashBox> boxes,
+                        const Bounds& cell, const ClashShare& share,
+                        std::vector<ClashCandidate>& out) const;
+
+private:
+    // One coordinate of a box, as the sweep needs them side by side.
+    struct Item {
+        double lo = 0;
+        double hi = 0;
+        std::uint32_t at = 0;
+    };
+    std::vector<Item> items_;
+};
+
 /// Adds the pairs among `boxes` whose place is in `cell`: the lower corner of what the two boxes
 /// have in common. Cells are half-open, so among cells that fill space each pair has one. For that
 /// a box must be in the list of each cell that it meets, grown upwards by `limits.most()`.

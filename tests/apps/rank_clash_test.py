@@ -6,6 +6,7 @@ Finds the clashes of a small plant with `trisect clash`, in one piece and in sha
 and 4 ranks: all reports are the same bytes. So are those of runs that are gone on with. Without the last two arguments,
 or where MPI does not start, only the first part is done, and the test counts as skipped (77).
 """
+import itertools
 import json
 import os
 import pathlib
@@ -40,6 +41,18 @@ def has_mpi():
 
 
 READY = has_mpi()
+
+
+def overlapping_boxes(manifest):
+    """Pairs of scaled blocks that a set has and whose interiors meet, by comparing all."""
+    boxes = []
+    for part in manifest['parts']:
+        low, edges = part['pose'][3::4], [64 * part['pose'][5 * k] for k in range(3)]
+        boxes.append((part['name'], part['group'], low, [a + b for a, b in zip(low, edges)]))
+    groups = [({s['a']}, set(s['b']) if 'b' in s else {s['a']}) for s in manifest['sets']]
+    return {frozenset((p[0], q[0])) for p, q in itertools.combinations(boxes, 2)
+            if all(p[2][k] < q[3][k] and q[2][k] < p[3][k] for k in range(3)) and
+            any((p[1] in a and q[1] in b) or (q[1] in a and p[1] in b) for a, b in groups)}
 
 
 class RankClash(unittest.TestCase):
@@ -101,6 +114,18 @@ class RankClash(unittest.TestCase):
         out = self.clash(ranks(3), 'stopped', '--max-work', '100', code=5)
         self.assertTrue(list(out.glob('*.journal.*')))
         self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
+
+    def test_plants_that_are_hard_to_divide(self):
+        for scene, parts, gathered in (('beams', 600, 9), ('plane', 400, 0), ('clusters', 500, 90), ('heap', 900, 250),
+                                       ('few', 1400, 900)):
+            subprocess.run([sys.executable, MAKE_PLANT, self.folder, '--scene', scene, '--parts', str(parts), '--gathered',
+                            str(gathered)], check=True, stdout=subprocess.DEVNULL)
+            whole = self.clash([TRISECT], 'whole')
+            clashes = json.loads((whole / 'report.json').read_text(encoding='utf-8'))['clashes']
+            found = {frozenset((clash['a'], clash['b'])) for clash in clashes}
+            self.assertEqual(found, overlapping_boxes(json.loads(self.manifest.read_text(encoding='ascii'))), scene)
+            if READY:
+                self.assert_same(whole, self.clash(ranks(3), 'ranks'))
 
     @unittest.skipUnless(READY, 'no MPI')
     def test_parts_are_divided(self):
