@@ -63,6 +63,10 @@ const char* InputFile::mapped() const {
     return static_cast<const char*>(mapping_);
 }
 
+void InputFile::release() const {
+    if (mapping_ != nullptr) (void)::madvise(mapping_, size_, MADV_DONTNEED);
+}
+
 OutputStream::OutputStream(std::string name)
     : name_(std::move(name)), temporary_(name_ + ".part-" + std::to_string(::getpid())) {
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

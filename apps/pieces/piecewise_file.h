@@ -25,6 +25,8 @@ public:
     void read(std::uint64_t offset, std::span<char> bytes) const;
     /// The whole file as memory that nothing is written to.
     [[nodiscard]] const char* mapped() const;
+    /// Gives back what is in memory of that; it is read again where it is needed.
+    void release() const;
 
 private:
     std::string name_;

@@ -24,6 +24,9 @@ namespace {
 // Polygons that are cut into triangles together.
 constexpr std::size_t corners_at_once = 16384;
 constexpr std::size_t numbers_at_once = std::size_t{1} << 16;
+// After which mapped memory is given back, so that what a process has is not as large as the file.
+constexpr std::size_t bytes_of_a_text = std::size_t{1} << 25;
+constexpr std::size_t faces_of_a_mapping = std::size_t{1} << 21;
 
 std::string_view bytes_of(const InputFile& file) {
     return file.size() == 0 ? std::string_view() : std::string_view(file.mapped(), file.size());
@@ -39,12 +42,18 @@ ReadOptions without_limits() {
 /// Points as they are in memory, and of each face how many corners it has and which.
 class PointsAndFaces final : public MeshSink {
 public:
-    PointsAndFaces(const std::string& points, const std::string& faces)
-        : points_(points), faces_(faces) {}
+    PointsAndFaces(const InputFile& from, const std::string& points, const std::string& faces)
+        : from_(from), points_(points), faces_(faces) {}
     void take(const PolygonMesh& piece) override {
         has_points_ = has_points_ || !piece.points.empty();
         has_faces_ = has_faces_ || piece.face_count() != 0;
         points_.write(piece.points.data(), piece.points.size() * sizeof(Point3d));
+        written_ +=
+            piece.points.size() * sizeof(Point3d) + piece.corners.size() * sizeof(std::uint32_t);
+        if (written_ >= bytes_of_a_text) {
+            from_.release();
+            written_ = 0;
+        }
         for (std::size_t f = 0; f < piece.face_count(); ++f) {
             const auto face = piece.face(f);
             faces_.write(static_cast<std::uint32_t>(face.size()));
@@ -59,8 +68,10 @@ public:
     }
 
 private:
+    const InputFile& from_;
     OutputStream points_;
     OutputStream faces_;
+    std::size_t written_ = 0;
     bool has_points_ = false;
     bool has_faces_ = false;
 };
@@ -99,6 +110,7 @@ public:
         : name_(name), points_(points), bytes_(bytes_of(points_)), out_(output) {}
 
     void add(const std::vector<std::uint32_t>& face) {
+        if (++faces_ % faces_of_a_mapping == 0) points_.release();
         if (face.size() == 3) {
             for (const std::uint32_t corner : face) out_.write(point(corner));
             return;
@@ -144,6 +156,7 @@ private:
 
     const std::string& name_;
     InputFile points_;
+    std::size_t faces_ = 0;
     std::string_view bytes_;
     OutputStream out_;
     PolygonMesh polygons_;
@@ -181,7 +194,7 @@ void import_in_pieces(const std::string& name, const std::string& output) {
     {
         const InputFile file(name);
         const std::string_view bytes = bytes_of(file);
-        PointsAndFaces parts(points, faces);
+        PointsAndFaces parts(file, points, faces);
         read_mesh_in_pieces(bytes, format_of(name, bytes), name, parts, without_limits());
         if (parts.lacks_faces())
             throw InputError({name, 0, 0, file.size()}, "the file ends without a face");

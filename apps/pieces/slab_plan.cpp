@@ -27,14 +27,15 @@ namespace {
 constexpr std::uint64_t base_bytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t triangle_bytes = 600;
 constexpr std::uint64_t usual_memory = std::uint64_t{1} << 30;
-// Of a boolean that is not done in slabs.
-constexpr std::uint64_t whole_bytes = 400;
+constexpr std::uint64_t least_memory = base_bytes + base_bytes / 2;
+// Of a boolean that is not done in slabs: up to 480 were measured, where the embedding is checked.
+constexpr std::uint64_t whole_bytes = 600;
 
 std::uint64_t most_triangles(const SlabOptions& options) {
     const std::uint64_t memory = options.memory == 0 ? usual_memory : options.memory;
-    if (memory < base_bytes + base_bytes / 2)
+    if (memory < least_memory)
         throw LimitError(
-            fmt::format("slabs of space need at least {} MiB of memory", 3 * base_bytes >> 21));
+            fmt::format("slabs of space need at least {} MiB of memory", least_memory >> 20));
     return (memory - base_bytes) / triangle_bytes;
 }
 
@@ -60,7 +61,8 @@ bool needs_slabs(const SlabOptions& options) {
         if (!found) return false;
         triangles += *found;
     }
-    return triangles > options.memory / whole_bytes;
+    const std::uint64_t base = options.memory < least_memory ? 0 : base_bytes;
+    return triangles > (options.memory - base) / whole_bytes;
 }
 
 bool is_slab_operation(const std::string& operation) {

@@ -18,6 +18,8 @@ namespace {
 
 // Records that are read at a time.
 constexpr std::uint64_t records_at_once = 16384;
+// After which mapped memory is given back.
+constexpr std::uint64_t records_of_a_mapping = 128 * records_at_once;
 
 template <class T>
 T number_at(const char* bytes) {
@@ -193,6 +195,7 @@ public:
         std::vector<char> bytes(records_at_once * layout_.face_bytes);
         for (std::uint64_t at = begin; at < end; at += records_at_once) {
             const std::uint64_t n = std::min(records_at_once, end - at);
+            if (at % records_of_a_mapping < records_at_once) file_.release();
             const std::uint64_t offset = first_face_ + layout_.face_bytes * at;
             file_.read(offset, std::span(bytes).first(n * layout_.face_bytes));
             for (std::uint64_t i = 0; i < n; ++i)

@@ -162,7 +162,7 @@ class RankSlabs(unittest.TestCase):
         self.assertEqual([diff[side]['volume'] for side in ('only_first', 'only_second')], [0, 0])
 
     def test_memory_decides_for_texts(self):
-        # 400 bytes for each of 600,000 triangles are too many.
+        # 600 bytes for each of 600,000 triangles are too many.
         write_ring(self.b, 600, 500, 0.7, 17.3)
         self.b = str(self.write_as('text.obj'))
         out = self.folder / 'o.ply'
@@ -173,6 +173,14 @@ class RankSlabs(unittest.TestCase):
         out = self.folder / 'o.ply'
         done = call([TRISECT, 'union', self.a, self.b, '-o', str(out), '--json', '--max-memory', '2G'])
         self.assertEqual(json.loads(done.stdout)['schema'], 'trisect.boolean/1', done.stderr)
+
+    def test_memory_that_a_check_for_self_intersection_would_exceed(self):
+        for name, turn in (('a.stl', 0), ('b.stl', 0.7)):
+            write_ring(self.folder / name, 300, 200, turn, 0)
+        done = call([TRISECT, 'union', str(self.folder / 'a.stl'), str(self.folder / 'b.stl'), '-o', str(self.folder / 'o.ply'),
+                     '--json', '--max-memory', '128M'])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)['schema'], 'trisect.slabs/1')
 
     def test_usage(self):
         for words in (['--faces'], ['--exact'], ['--lattice', '-10']):
