@@ -10,7 +10,8 @@
 namespace trisect::app {
 
 /// Stored without compression: pictures are compressed already, and equal contents give equal
-/// bytes. The time of each file is the first that the format has. Up to 65,535 files and 4 GiB.
+/// bytes. The time of each file is the first that the format has. Up to 4 GiB; 65,535 files and
+/// more make it one of ZIP64.
 class ZipFile {
 public:
     /// \throw LimitError when the archive becomes too large

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 MAKE_PLANT, TRISECT = sys.argv[1:3]
 TRISECT_MPI, MPIRUN = (sys.argv[3:5] + [None, None])[:2]
@@ -114,6 +115,19 @@ class RankClash(unittest.TestCase):
         out = self.clash(ranks(3), 'stopped', '--max-work', '100', code=5)
         self.assertTrue(list(out.glob('*.journal.*')))
         self.assert_same(whole, self.clash(ranks(2), 'stopped', '--resume'))
+
+    def test_topics_by_the_ten_thousand(self):
+        # Two files each: more than an archive has without ZIP64.
+        parts = [{'file': 'block.off', 'id': f'{i}'} for i in range(260)]
+        self.manifest.write_text(json.dumps({'parts': parts}), encoding='ascii')
+        report = self.folder / 'many.bcf'
+        done = call([TRISECT, 'clash', str(self.manifest), '-o', str(report), '-q'])
+        self.assertEqual(done.returncode, 1, done.stderr)
+        with zipfile.ZipFile(report) as archive:
+            names = archive.namelist()
+            self.assertEqual(len(names), len(set(names)))
+            self.assertEqual(sum(name.endswith('markup.bcf') for name in names), 260 * 259 // 2)
+            self.assertIn(b'Topic', archive.read(next(name for name in reversed(names) if name.endswith('markup.bcf'))))
 
     def test_plants_that_are_hard_to_divide(self):
         for scene, parts, gathered in (('beams', 600, 9), ('plane', 400, 0), ('clusters', 500, 90), ('heap', 900, 250),
