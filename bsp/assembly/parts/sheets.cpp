@@ -82,7 +82,7 @@ private:
         return parts_.facets[as_index(o.facet)];
     }
     [[nodiscard]] Edges edges_of(const Outline& o) const {
-        return {edges_.begin() + o.first, edges_.begin() + o.end};
+        return Edges(edges_.data() + o.first, edges_.data() + o.end);
     }
     void list_outlines();
     void list_edges();
