@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 
 namespace trisect {
 namespace {
@@ -86,6 +87,38 @@ TEST(ThinTriangles, ManyPointsBesideOneEdge) {
     // All strips are gone: each triangle has one of the two far corners.
     for (const auto& t : out.triangles)
         EXPECT_TRUE(std::ranges::count(t, 2U) + std::ranges::count(t, 3U) > 0);
+}
+
+// Tori of few triangles whose corners are on a grid of four numbers, almost.
+TEST(ThinTriangles, WhatIsClosedStaysClosed) {
+    std::mt19937 random(20261129);
+    std::size_t changed = 0;
+    for (int round = 0; round < 400; ++round) {
+        const auto across = static_cast<std::uint32_t>(3 + random() % 6);
+        const auto around = static_cast<std::uint32_t>(3 + random() % 6);
+        const auto number = [&](std::uint32_t i, std::uint32_t j) {
+            return i % across * around + j % around;
+        };
+        const auto near = [&](double by) {
+            return static_cast<double>(random() % 4) + static_cast<double>(random() % 3) * by;
+        };
+        std::vector<Point3d> points(std::size_t{across} * around);
+        for (Point3d& p : points) p = {near(0), near(0x1p-50), near(0x1p-51)};
+        Triangles torus;
+        for (std::uint32_t i = 0; i < across; ++i)
+            for (std::uint32_t j = 0; j < around; ++j) {
+                torus.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1)});
+                torus.push_back({number(i, j), number(i + 1, j + 1), number(i, j + 1)});
+            }
+        const TrianglesWithoutThin out = without_thin_triangles(points, torus, 0x1p-45);
+        EXPECT_TRUE(is_closed(out.triangles));
+        for (const auto& t : out.triangles)
+            for (const std::uint32_t p : t) EXPECT_EQ(out.point[p], p);
+        for (const std::uint32_t t : out.origin) EXPECT_LT(t, torus.size());
+        changed += out.triangles != torus ? 1 : 0;
+    }
+    EXPECT_GT(changed, 200U);
+    EXPECT_TRUE(without_thin_triangles({}, {}, 1).triangles.empty());
 }
 
 }  // namespace
