@@ -250,4 +250,25 @@ TrianglesWithoutThin without_thin_triangles(std::span<const Point3d> points,
     return ThinTriangles(points, triangles, width).result();
 }
 
+ThickMesh thick_mesh(const PolygonMesh& mesh, double relative_width) {
+    double largest = 0;
+    for (const Point3d& p : mesh.points)
+        for (const double c : p) largest = std::max(largest, std::fabs(c));
+    std::vector<Triangle> triangles(mesh.face_count());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        std::ranges::copy(mesh.face(t), triangles[t].begin());
+    TrianglesWithoutThin thick =
+        without_thin_triangles(mesh.points, triangles, relative_width * largest);
+    ThickMesh out;
+    out.mesh.points = mesh.points;
+    for (const Triangle& t : thick.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
+    out.origin = std::move(thick.origin);
+    out.reach = thick.reach;
+    for (std::size_t p = 0; p < mesh.points.size(); ++p)
+        for (std::size_t i = 0; i < 3; ++i)
+            out.move =
+                std::max(out.move, std::fabs(mesh.points[p][i] - mesh.points[thick.point[p]][i]));
+    return out;
+}
+
 }  // namespace trisect::detail

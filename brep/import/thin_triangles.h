@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/brep/polygon_mesh.h>
 #include <trisect/kernel/point3d.h>
 
 namespace trisect::detail {
@@ -33,5 +34,17 @@ struct TrianglesWithoutThin {
 [[nodiscard]] TrianglesWithoutThin without_thin_triangles(
     std::span<const Point3d> points, std::span<const std::array<std::uint32_t, 3>> triangles,
     double width);
+
+/// A mesh whose thin triangles are given up.
+struct ThickMesh {
+    PolygonMesh mesh;
+    std::vector<std::uint32_t> origin;  ///< by face: the one before whose face it is part of
+    double move = 0;                    ///< of a coordinate, at most
+    double reach = 0;                   ///< as above
+};
+
+/// The same of a mesh, with a width of so many times the largest coordinate. Points are kept, used
+/// or not. \pre all faces are triangles
+[[nodiscard]] ThickMesh thick_mesh(const PolygonMesh& mesh, double relative_width);
 
 }  // namespace trisect::detail

@@ -11,7 +11,7 @@
 namespace trisect::detail::shifted {
 
 /// All numbers within `error` of `value`. An error of 0 means that nothing was rounded, so zeros of
-/// planes across an axis and of edges along one are certain.
+/// planes across an axis and of edges along one are certain; a Ball has none.
 ///
 /// Coordinates are multiples of 2^-73, and rounding leaves a product of d of them a multiple of
 /// 2^-73d, so with d up to 10 neither values nor errors underflow; values are below 2^600.

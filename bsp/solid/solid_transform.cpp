@@ -14,6 +14,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <trisect/brep/embedding_findings.h>
@@ -271,37 +272,23 @@ StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
     return state;
 }
 
-// A rounded boundary; the numbers of triangles before it that its own are parts of.
-struct RoundedMesh {
-    PolygonMesh mesh;
-    std::vector<std::uint32_t> origin;
-};
-
-// Without triangles thinner than so many units in the last place of the largest coordinate; how far
-// a corner moved at most is added to the report.
-RoundedMesh without_thin(const PolygonMesh& mesh, double units, LatticeReport* report) {
-    double largest = 0;
-    for (const Point3d& p : mesh.points)
-        for (const double c : p) largest = std::max(largest, std::fabs(c));
-    std::vector<std::array<std::uint32_t, 3>> triangles(mesh.face_count());
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        std::ranges::copy(mesh.face(t), triangles[t].begin());
-    detail::TrianglesWithoutThin thick =
-        detail::without_thin_triangles(mesh.points, triangles, units * 0x1p-52 * largest);
-    RoundedMesh out{{mesh.points, {0}, {}}, std::move(thick.origin)};
-    for (const auto& t : thick.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
-    double move = 0;
-    for (std::size_t p = 0; p < mesh.points.size(); ++p)
+// Whether a vertex lies beside its rounded place.
+bool is_rounded(const ExactMesh& exact, const Pose& pose, const PolygonMesh& there) {
+    const MovedPoints mover(pose, exact.lattice);
+    for (std::size_t v = 0; v < exact.points.size(); ++v) {
+        const MovedPoints::Exact p = mover.exact(exact.points[v]);
         for (std::size_t i = 0; i < 3; ++i)
-            move = std::max(move, std::fabs(mesh.points[p][i] - mesh.points[thick.point[p]][i]));
-    if (report != nullptr) report->max_move += move;
-    return out;
+            if (p[i] != mpq_class(there.points[v][i])) return true;
+    }
+    return false;
 }
 
 // Nothing where no triangle is left.
-StatePtr imported(const RoundedMesh& rounded, const ExactMesh& before, const Solid& solid,
-                  bool is_complement, LatticeReport* report) {
-    ImportedMesh made = import_mesh(rounded.mesh);
+// `origin`: of its triangles among those of the mesh before it.
+StatePtr imported(const PolygonMesh& rounded, std::span<const std::uint32_t> origin,
+                  const ExactMesh& before, const Solid& solid, bool is_complement,
+                  LatticeReport* report) {
+    ImportedMesh made = import_mesh(rounded);
     // Where triangles that rounding made flat are gone, fronts and backs may be left. The sum over
     // the triangles is asked, not the boundary of the set: they may meet each other.
     if (made.mesh.triangles.empty() || (made.mesh.triangles.size() < before.triangles.size() &&
@@ -320,7 +307,7 @@ StatePtr imported(const RoundedMesh& rounded, const ExactMesh& before, const Sol
     std::vector<std::uint32_t> faces;
     faces.reserve(made.mesh.triangles.size());
     for (std::uint32_t t = 0; t < made.mesh.triangles.size(); ++t)
-        faces.push_back(number[rounded.origin[made.mesh.face_of(t)]]);
+        faces.push_back(number[origin[made.mesh.face_of(t)]]);
     made.mesh.face_of_triangle = std::move(faces);
     // Corners of triangles that are gone lie inside edges of others.
     return state_of(std::move(made.mesh), made.report.t_edges != 0, solid.source_id(),
@@ -334,19 +321,22 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
     if (state.far_out < 0 && exact_volume(mesh).sign() < 0)
         throw UnsupportedError("an unbounded set of half-spaces cannot be moved off the lattice");
     const bool turn_over = pose.is_mirror() != is_complement;
-    RoundedMesh there{rounded_mesh(mesh, pose, turn_over, report), {}};
-    there.origin.resize(mesh.triangles.size());
-    std::iota(there.origin.begin(), there.origin.end(), 0U);
+    const PolygonMesh there = rounded_mesh(mesh, pose, turn_over, report);
+    std::vector<std::uint32_t> same(mesh.triangles.size());
+    std::iota(same.begin(), same.end(), 0U);
     const LatticeReport before = report == nullptr ? LatticeReport() : *report;
-    const StatePtr out = imported(there, mesh, solid, is_complement, report);
+    const StatePtr out = imported(there, same, mesh, solid, is_complement, report);
     if (out == nullptr)
         throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
-    if (out->embedded) return out;
+    // What was not rounded met itself before, and stays so.
+    if (out->embedded || !is_rounded(mesh, pose, there)) return out;
     // Thin triangles that were turned over meet their neighbours.
     for (const double units : {4.0, 16.0}) {
+        const detail::ThickMesh thick = detail::thick_mesh(there, units * 0x1p-52);
         LatticeReport other = before;
-        const RoundedMesh thick = without_thin(there.mesh, units, &other);
-        const StatePtr embedded = imported(thick, mesh, solid, is_complement, &other);
+        other.max_move += thick.move;
+        const StatePtr embedded =
+            imported(thick.mesh, thick.origin, mesh, solid, is_complement, &other);
         if (embedded == nullptr || !embedded->embedded) continue;
         if (report != nullptr) *report = other;
         return embedded;

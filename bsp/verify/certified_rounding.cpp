@@ -22,7 +22,6 @@
 #include <trisect/bsp/certified_rounding.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -88,26 +87,17 @@ double reach_of(const PolygonMesh& mesh, double max_move) {
 // Triangles thinner than so many units in the last place given up, whether that mends all or not.
 std::optional<MendedRounding> without_thin(const PolygonMesh& mesh, const Certificate& before,
                                            Precision precision, double units) {
-    MendedRounding out;
-    out.mesh.points = mesh.points;
-    std::vector<std::array<std::uint32_t, 3>> triangles(mesh.face_count());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if (mesh.face(t).size() != 3) return std::nullopt;
-        std::ranges::copy(mesh.face(t), triangles[t].begin());
-    }
-    if (precision == Precision::Float) to_floats(out.mesh);
-    const std::vector<Point3d>& points = out.mesh.points;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face(f).size() != 3) return std::nullopt;
+    PolygonMesh plain = mesh;
+    if (precision == Precision::Float) to_floats(plain);
     const double place = precision == Precision::Float ? 0x1p-23 : 0x1p-52;
-    detail::TrianglesWithoutThin thick = detail::without_thin_triangles(
-        points, triangles, units * place * largest_coordinate(out.mesh));
-    for (const auto& t : thick.triangles) out.mesh.add_triangle(t[0], t[1], t[2]);
+    detail::ThickMesh thick = detail::thick_mesh(plain, units * place);
+    MendedRounding out;
+    out.mesh = std::move(thick.mesh);
     out.parents = std::move(thick.origin);
-    double move = 0;
-    for (std::size_t p = 0; p < points.size(); ++p)
-        for (std::size_t i = 0; i < 3; ++i)
-            move = std::max(move, std::abs(points[p][i] - points[thick.point[p]][i]));
     out.certificate = certify(out.mesh);
-    out.certificate.max_move = detail::sum_up(before.max_move, move);
+    out.certificate.max_move = detail::sum_up(before.max_move, thick.move);
     out.certificate.rounded_vertices = before.rounded_vertices;
     out.radius = detail::sum_up(out.certificate.max_move, thick.reach);
     out.gave_thin_up = true;

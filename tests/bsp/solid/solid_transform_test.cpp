@@ -10,16 +10,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/embedding_findings.h>
+#include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
 #include <trisect/brep/validate/validate.h>
 #include <trisect/bsp/brep_index.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/error.h>
@@ -285,6 +289,60 @@ TEST(SolidTransform, TrianglesThatRoundingMakesFlat) {
     EXPECT_EQ(there.to_brep({.maximal_faces = false}).counts().shells, 1U);
     EXPECT_TRUE(are_equal(there, box({8, 8, 8}, {9, 9, 9})));
     EXPECT_EQ(trisect::volume(evaluate(there | box({9, 8, 8}, {10, 9, 9}))), 2);
+}
+
+// Boxes that are a hair apart from each other's planes leave triangles that a turn makes flat or
+// turns over.
+TEST(SolidTransform, ThinTrianglesAreGivenUpWhereTheyWouldMeet) {
+    const Pose turn = Pose::from_doubles({0.5, 0.866025, 0, 0, -0.866025, 0.5, 0, 0, 0, 0, 1, 0});
+    std::mt19937 random(20261129);
+    std::size_t met = 0;
+    std::size_t mended = 0;
+    for (int round = 0; round < 200; ++round) {
+        const auto near = [&](double v) { return v + static_cast<double>(random() % 4) * 0x1p-50; };
+        const auto slanted = [&](double x) {
+            trisect::PolygonMesh mesh =
+                trisect::make_box({x, near(1), near(1)}, {x + 3, near(2), near(2)});
+            for (trisect::Point3d& p : mesh.points) p[0] += p[2] * 0.37;
+            return Solid::from_mesh(mesh);
+        };
+        const Solid solid = evaluate((slanted(0.1) - slanted(near(1.7))) | slanted(2.9));
+        const trisect::ExactMesh mesh = solid.to_exact_mesh();
+        trisect::AffineMap map;
+        map.rows = {{{0.5, 0.866025, 0, 0}, {-0.866025, 0.5, 0, 0}, {0, 0, 1, 0}}};
+        const bool meets_itself =
+            !trisect::find_embedding(
+                 trisect::import_mesh(trisect::transformed_mesh(mesh, map)).mesh)
+                 .is_embedded;
+        LatticeReport report;
+        const Solid turned = trisect::transformed(solid, turn, &report);
+        EXPECT_LT(report.max_move, 1e-14);
+        EXPECT_NEAR(volume(turned), volume(solid) * (0.25 + 0.866025 * 0.866025), 1e-13);
+        if (!meets_itself) continue;
+        ++met;
+        mended += trisect::detail::state_of(turned)->embedded ? 1 : 0;
+    }
+    EXPECT_GT(met, 10U);
+    EXPECT_GT(4 * mended, 3 * met);  // the others are left to what comes next
+}
+
+// Their own doubles: nothing is repaired where nothing is rounded.
+TEST(SolidTransform, ThinTrianglesOfAUserStayUnderExactMaps) {
+    trisect::PolygonMesh mesh;
+    mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2 + 0x1p-51, 2, 0}};
+    for (const std::array<std::uint32_t, 3>& t : std::vector<std::array<std::uint32_t, 3>>{
+             {0, 2, 1}, {2, 4, 1}, {0, 1, 3}, {0, 3, 2}, {1, 4, 3}, {4, 2, 3}})
+        mesh.add_triangle(t[0], t[1], t[2]);
+    trisect::SolidOptions options;
+    options.embedding = trisect::Embedding::Check;
+    const Solid solid = Solid::from_mesh(mesh, options);
+    LatticeReport report;
+    const Solid twice = trisect::transformed(
+        solid, Pose::from_doubles({2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0}), &report);
+    EXPECT_TRUE(report.lossless);
+    EXPECT_EQ(report.max_move, 0);
+    EXPECT_EQ(twice.to_exact_mesh().triangles.size(), 6U);
+    EXPECT_EQ(twice.to_exact_mesh().points.size(), 5U);
 }
 
 TEST(Components, OfSpecialSets) {
