@@ -21,9 +21,11 @@ import sys
 import threading
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+# The time of the page is virtual: it passes at once where the page only waits, as for the module to be compiled, which
+# takes real time. So there is plenty of it.
 OPTIONS = (
     "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1000,700",
-    "--hide-scrollbars", "--virtual-time-budget=30000",
+    "--hide-scrollbars", "--virtual-time-budget=900000",
 )
 
 # Runs in the page and leaves what it found in an element.
