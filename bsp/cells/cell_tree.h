@@ -279,6 +279,12 @@ public:
     [[nodiscard]] const CellNode* refinement() const {
         return refinement_.load(std::memory_order_acquire);
     }
+    /// Of a leaf: whether it was compared as a whole with a far smaller operand. The next such
+    /// operand refines it.
+    [[nodiscard]] bool was_compared() const {
+        return was_compared_.load(std::memory_order_relaxed);
+    }
+    void note_comparison() const { was_compared_.store(true, std::memory_order_relaxed); }
     /// Publishes what `make()` returns as the leaf's refinement, unless there is one; returns the
     /// one there is. Nothing is published when `make()` returns null.
     template <class Make>
@@ -301,6 +307,7 @@ private:
     mutable PolygonList polygons_;
     std::unique_ptr<const DeferredLeaf> deferred_;
     mutable std::atomic<bool> is_arranged_{false};
+    mutable std::atomic<bool> was_compared_{false};
     FinePoint reference_;
     int winding_ = 0;
     bool mixed_ = false;

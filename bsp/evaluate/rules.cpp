@@ -156,8 +156,8 @@ bool may_be_divided(const CellView& view) { return !view.undividable; }
 // One arrangement of segments is for prisms of few facets that cross each other everywhere.
 constexpr std::uint64_t few_of_prism = 64;
 
-bool are_meshes_of_a_size(const Residual::Ref& formula, const SolidStates& solids,
-                          const EvaluateSettings& options) {
+bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
+                        const EvaluateSettings& options) {
     return are_two_meshes(formula, solids, options);
 }
 
@@ -204,10 +204,10 @@ constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
     Rule{"two meshes",
-         "∪, ∩, − or ⊕ of two imported meshes of a size, 16 facets each, without an index; no work "
-         "limit",
+         "∪, ∩, − or ⊕ of two imported meshes, 16 facets each, without an index, of a size, or of "
+         "which the larger one is not large and was not compared so before; no work limit",
          "uncrossed facets, crossings", &Stats::filtered_leaves,
-         FormulaRule{&are_meshes_of_a_size, &evaluate_without_tree}},
+         FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},
     Rule{"outlines of prisms",
          "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
          "whole facets, outlines by name", &Stats::prism_leaves,
@@ -221,8 +221,10 @@ constexpr std::array all_rules{
         "many meshes",
         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
         "stand on each other, or the first one's has half of all, or the largest one meets more "
-        "than 64, or of few facets whose boxes touch or are apart, or of thin facets; none with an "
-        "index, not all across the axes, unless nested, or a leaf of prisms; no limits",
+        "than 64, or whose boxes touch or are apart, or of thin facets, or nested; where many, "
+        "most "
+        "facets in the formula's reach; none with an index, not all across the axes, unless within "
+        "each other, or a leaf of prisms; no limits",
         "uncrossed facets, outlines", &Stats::filtered_leaves,
         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",

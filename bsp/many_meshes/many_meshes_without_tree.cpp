@@ -73,7 +73,7 @@ constexpr double large_first_part = 0.5;
 constexpr double standing_part = 0.5;
 
 // So few facets are compared pair by pair wherever they are, where such a part of all operands may
-// touch others: cells would be arranged exactly.
+// touch others: cells would be arranged exactly. More are where most may bound the result.
 constexpr std::size_t few_facets = 20000;
 constexpr double touching_part = 0.125;
 
@@ -183,8 +183,26 @@ bool meets_many(std::span<const Box> boxes) {
     return static_cast<std::size_t>(met) > most_cutters;
 }
 
-// Whether most facets are of operands beside all that the result may have, as in an intersection of
-// what is scattered: cells drop them at once.
+// About how many facets of an imported mesh are beside a box, by some of them.
+std::size_t facets_beside(const Source& source, const Box& box) {
+    constexpr std::size_t most_looked_at = 64;
+    const LatticeMesh& mesh = source.mesh();
+    const std::size_t count = source.facet_count();
+    if (!source.box().overlaps(box)) return count;
+    if (box.intersected(source.box()) == source.box()) return 0;
+    const std::size_t looked_at = std::min(count, most_looked_at);
+    std::size_t beside = 0;
+    for (std::size_t i = 0; i < looked_at; ++i) {
+        Box facet;
+        for (const std::uint32_t corner : mesh.triangles[i * count / looked_at])
+            facet.add(mesh.points[corner]);
+        if (!facet.overlaps(box)) ++beside;
+    }
+    return beside * count / looked_at;
+}
+
+// Whether most facets are beside all that the result may have, as in an intersection of what is
+// scattered, or a small part less large ones: cells drop them at once.
 bool are_mostly_beside(const Residual& formula, const SolidStates& solids) {
     const std::optional<Box> reach = reach_of(formula, solids);
     if (!reach) return false;
@@ -192,9 +210,8 @@ bool are_mostly_beside(const Residual& formula, const SolidStates& solids) {
     std::size_t beside = 0;
     std::size_t all = 0;
     for (const auto& s : solids) {
-        const std::size_t facets = source_of(*s).facet_count();
-        all += facets;
-        if (!source_of(*s).box().overlaps(*reach)) beside += facets;
+        all += source_of(*s).facet_count();
+        beside += facets_beside(source_of(*s), *reach);
     }
     return 2 * beside > all;
 }
@@ -619,6 +636,7 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
     const std::vector<Box> boxes = boxes_of(solids);
     if (do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes))) return true;
     if (are_mostly_beside(*formula, solids)) return false;
+    if (!crossings_of(*formula, solids) || may_touch_or_are_apart(boxes)) return true;
     return crowd == Crowd::Near || meets_many(boxes) || are_thin(*formula, solids);
 }
 

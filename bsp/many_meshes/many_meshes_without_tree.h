@@ -18,8 +18,9 @@ namespace trisect::detail {
 [[nodiscard]] bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                       const EvaluateSettings& options);
 /// And whether their boxes mostly overlap, or stand on each other, or the first one's has half of
-/// all, or they have few facets and boxes that touch, or are apart, or most facets are long and
-/// thin: else more is compared pair by pair than in cells.
+/// all, or boxes touch or are apart, or most facets are long and thin, or operations are nested;
+/// and, but for few facets, whether most are in the formula's reach: else more is compared pair by
+/// pair than in cells.
 [[nodiscard]] bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                    const EvaluateSettings& options);
 

@@ -77,6 +77,11 @@ void do_both(bool parallel, const First& first, const Second& second) {
     }
 }
 
+// Meshes of so many times the facets of the other one cost more as a whole than by their index.
+constexpr std::size_t of_a_size = 16;
+// Fewer facets are looked at in a millisecond; more are worth an index from the first time on.
+constexpr std::size_t soon_compared = std::size_t{1} << 15;
+
 // The meshes, and whether they are worth it.
 struct TwoMeshes {
     std::array<const CellNode*, 2> nodes;
@@ -100,11 +105,18 @@ struct TwoMeshes {
     [[nodiscard]] std::size_t smaller() const {
         return std::min(nodes[0]->size(), nodes[1]->size());
     }
-    // A mesh with an index is not looked at as a whole again, and neither is one that outnumbers
-    // the other one and hence gets an index now (evaluator.cpp).
-    [[nodiscard]] bool are_of_a_size() const {
+    [[nodiscard]] bool are_comparable() const {
         return nodes[0]->refinement() == nullptr && nodes[1]->refinement() == nullptr &&
-               larger() < 4 * smaller();
+               (are_of_a_size() || (larger() < soon_compared && !larger_node().was_compared()));
+    }
+    // A mesh that is far larger is looked at as a whole once, if at all. Then it gets an index
+    // (evaluator.cpp), by which the next small one is found at once.
+    void note_comparison() const {
+        if (!are_of_a_size()) larger_node().note_comparison();
+    }
+    [[nodiscard]] bool are_of_a_size() const { return larger() < of_a_size * smaller(); }
+    [[nodiscard]] const CellNode& larger_node() const {
+        return nodes[0]->size() < nodes[1]->size() ? *nodes[1] : *nodes[0];
     }
     [[nodiscard]] bool have_outer_references() const {
         return lies_outside(nodes[0]->reference(), source(0).box()) &&
@@ -509,7 +521,7 @@ bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
         !crossings_of(*disjoint_parts(formula)[0], solids))
         return false;
     const TwoMeshes two(solids);
-    return two.smaller() >= least_facets && two.are_of_a_size() && two.have_outer_references();
+    return two.smaller() >= least_facets && two.are_comparable() && two.have_outer_references();
 }
 
 std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
@@ -526,6 +538,7 @@ std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
         return find_parts(disjoint_parts(formula), solids, search, made);
     });
     if (!found) return std::nullopt;
+    two.note_comparison();
     stats = made;
     found->tree = std::move(tree);
     return *std::move(found);

@@ -15,9 +15,9 @@
 namespace trisect::detail {
 
 /// Whether a formula is a union, an intersection, a difference or an exclusive or of two imported
-/// meshes, and work is not limited. Not where one has an index, or is so large beside the other
-/// that it gets one: what is beside the smaller one is not looked at then. Meshes of fewer than
-/// `least_facets` are one leaf of a tree.
+/// meshes, and work is not limited. Not where one has an index, or is far larger than the other and
+/// large, or was compared with such a one before: it gets an index then, and what is beside the
+/// smaller one is not looked at. Meshes of fewer than `least_facets` are one leaf of a tree.
 [[nodiscard]] bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
                                   const EvaluateSettings& options, std::size_t least_facets = 16);
 
