@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Booleans of random pairs of mesh files by the library and by Manifold, in one process.
+// Booleans of random mesh files by the library and by Manifold, in one process.
 //
-//     pairs_beside_manifold [--seed N] [--pairs N] [--rounds N] FILE...
+//     pairs_beside_manifold [--seed N] [--pairs N] [--operands N] [--rounds N] FILE...
 //
 // The second file of a pair is put where a random point of the first one's box is, to eighths of a
 // unit; in half of the pairs it is turned by 90 degrees about the z axis, and in half it begins in
 // the plane in which the first one's box begins, along one axis, so that faces are flush. One of
-// union, difference and intersection. Prints a line of tab-separated values for each pair: the
-// operation, the placement, triangles of both and of the result, least processor seconds of either
-// in `rounds` turns from arrays to arrays with one thread, their ratio, volumes, files. Then for
-// each placement how many times as fast as Manifold the library is (least, tenth part, median), and
-// how many volumes differ by more than 10^-8 of the first operand's or of the result's, the larger.
+// union, difference and intersection. --operands N: 3 to N files in place of pairs, each of the
+// others placed so by itself, and in place of an intersection every other one less the rest. Prints
+// a line of tab-separated values for each formula: the operation, the placement, how many operands,
+// triangles of these and of the result, least processor seconds of either in `rounds` turns from
+// arrays to arrays with one thread, their ratio, volumes, files. Then for each placement, or
+// operation on several, how many times as fast as Manifold the library is (least, tenth part,
+// median), and how many volumes differ by more than 10^-8 of the first operand's or of the
+// result's, the larger.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +41,7 @@ namespace {
 
 using trisect::PolygonMesh;
 
-constexpr std::array operations{"union", "difference", "intersection"};
+constexpr std::array operations{"union", "difference", "intersection", "union less union"};
 constexpr double accepted_difference = 1e-8;
 
 double processor_seconds() {
@@ -95,17 +98,31 @@ struct Outcome {
     std::size_t triangles = 0;
 };
 
-Outcome by_trisect(const PolygonMesh& a, const PolygonMesh& b, std::size_t operation) {
+trisect::Expression formula_of(const std::vector<trisect::Solid>& solids, std::size_t operation) {
+    trisect::Expression out = solids[0];
+    if (operation == 3) {
+        trisect::Expression less = solids[1];
+        for (std::size_t i = 2; i < solids.size(); ++i)
+            if (i % 2 != 0)
+                less = less | solids[i];
+            else
+                out = out | solids[i];
+        return out - less;
+    }
+    for (std::size_t i = 1; i < solids.size(); ++i)
+        out = operation == 0 ? out | solids[i] : operation == 1 ? out - solids[i] : out & solids[i];
+    return out;
+}
+
+Outcome by_trisect(const std::vector<PolygonMesh>& meshes, std::size_t operation) {
     const double begin = processor_seconds();
     trisect::SolidOptions options;
     options.import.threads = 1;
     trisect::EvaluateOptions evaluating;
     evaluating.threads = 1;
-    const auto first = trisect::Solid::from_mesh(a, options);
-    const auto second = trisect::Solid::from_mesh(b, options);
-    const auto result = operation == 0   ? evaluate(first | second, evaluating)
-                        : operation == 1 ? evaluate(first - second, evaluating)
-                                         : evaluate(first & second, evaluating);
+    std::vector<trisect::Solid> solids;
+    for (const PolygonMesh& m : meshes) solids.push_back(trisect::Solid::from_mesh(m, options));
+    const trisect::Solid result = evaluate(formula_of(solids, operation), evaluating);
     const PolygonMesh mesh = result.to_mesh(1);
     const double seconds = processor_seconds() - begin;
     return {seconds, trisect::volume(result.to_exact_mesh()), mesh.face_count()};
@@ -125,11 +142,22 @@ manifold::Manifold manifold_of(const PolygonMesh& mesh) {
     return manifold::Manifold(out);
 }
 
-Outcome by_manifold(const PolygonMesh& a, const PolygonMesh& b, std::size_t operation) {
+manifold::Manifold evaluate_by_manifold(const std::vector<manifold::Manifold>& operands,
+                                        std::size_t operation) {
     using enum manifold::OpType;
+    using manifold::Manifold;
+    if (operation < 3)
+        return Manifold::BatchBoolean(operands, std::array{Add, Subtract, Intersect}[operation]);
+    std::array<std::vector<Manifold>, 2> terms;
+    for (std::size_t i = 0; i < operands.size(); ++i) terms[i % 2].push_back(operands[i]);
+    return Manifold::BatchBoolean(terms[0], Add) - Manifold::BatchBoolean(terms[1], Add);
+}
+
+Outcome by_manifold(const std::vector<PolygonMesh>& meshes, std::size_t operation) {
     const double begin = processor_seconds();
-    const manifold::Manifold result =
-        manifold_of(a).Boolean(manifold_of(b), std::array{Add, Subtract, Intersect}[operation]);
+    std::vector<manifold::Manifold> operands;
+    for (const PolygonMesh& m : meshes) operands.push_back(manifold_of(m));
+    const manifold::Manifold result = evaluate_by_manifold(operands, operation);
     const std::size_t triangles = result.GetMeshGL64().NumTri();
     const double seconds = processor_seconds() - begin;
     if (result.Status() != manifold::Manifold::Error::NoError) return {seconds, NAN, 0};
@@ -153,39 +181,53 @@ void print(const std::map<std::string, Summary>& summaries) {
     }
 }
 
-class Pairs {
+class RandomFormulas {
 public:
-    Pairs(std::vector<std::string> files, unsigned seed, int rounds)
-        : files_(std::move(files)), random_(seed), rounds_(rounds) {}
+    RandomFormulas(std::vector<std::string> files, int seed, int rounds, int operands)
+        : files_(std::move(files)),
+          random_(static_cast<unsigned>(seed)),
+          rounds_(rounds),
+          operands_(static_cast<std::size_t>(operands)) {}
 
     void compare_one() {
-        const std::string& first = any_file();
-        const std::string& second = any_file();
-        const std::size_t operation = random_() % operations.size();
-        Placement placement;
-        placement.turned = random_() % 2 != 0;
-        placement.flush_axis = random_() % 2 != 0 ? static_cast<int>(random_() % 3) : -1;
-        for (double& at : placement.at) at = static_cast<double>(random_() % 1000) / 1000;
-        const PolygonMesh& a = mesh_of(first);
-        const PolygonMesh b = placed(mesh_of(second), placement, range_of(a));
-        Outcome ours = by_trisect(a, b, operation);
-        Outcome theirs = by_manifold(a, b, operation);
-        for (int i = 1; i < rounds_; ++i) {
-            ours.seconds = std::min(ours.seconds, by_trisect(a, b, operation).seconds);
-            theirs.seconds = std::min(theirs.seconds, by_manifold(a, b, operation).seconds);
+        const std::size_t count = operands_ < 3 ? 2 : 3 + random_() % (operands_ - 2);
+        std::size_t operation = random_() % 3;
+        if (count > 2 && operation == 2) operation = 3;
+        std::string files = any_file();
+        std::string name;
+        std::vector<PolygonMesh> meshes{mesh_of(files)};
+        const Range first = range_of(meshes[0]);
+        while (meshes.size() < count) {
+            const std::string& file = any_file();
+            const Placement placement = any_placement();
+            meshes.push_back(placed(mesh_of(file), placement, first));
+            files += '\t' + file;
+            name = count > 2 ? operations[operation] : placement.name();
         }
+        compare(meshes, operation, name, files);
+    }
+
+    void compare(const std::vector<PolygonMesh>& meshes, std::size_t operation,
+                 const std::string& name, const std::string& files) {
+        Outcome ours = by_trisect(meshes, operation);
+        Outcome theirs = by_manifold(meshes, operation);
+        for (int i = 1; i < rounds_; ++i) {
+            ours.seconds = std::min(ours.seconds, by_trisect(meshes, operation).seconds);
+            theirs.seconds = std::min(theirs.seconds, by_manifold(meshes, operation).seconds);
+        }
+        std::size_t triangles = 0;
+        for (const PolygonMesh& m : meshes) triangles += m.face_count();
         const double ratio = theirs.seconds / ours.seconds;
-        std::printf("%s\t%s\t%zu\t%zu\t%zu\t%.5f\t%.5f\t%.2f\t%.12g\t%.12g\t%s\t%s\n",
-                    operations[operation], placement.name().c_str(), a.face_count(), b.face_count(),
-                    ours.triangles, ours.seconds, theirs.seconds, ratio, ours.volume, theirs.volume,
-                    first.c_str(), second.c_str());
+        std::printf("%s\t%s\t%zu\t%zu\t%zu\t%.5f\t%.5f\t%.2f\t%.12g\t%.12g\t%s\n",
+                    operations[operation], name.c_str(), meshes.size(), triangles, ours.triangles,
+                    ours.seconds, theirs.seconds, ratio, ours.volume, theirs.volume, files.c_str());
         std::fflush(stdout);
-        Summary& s = summaries_[placement.name()];
+        Summary& s = summaries_[name];
         s.ratios.push_back(ratio);
         if (std::isnan(theirs.volume))
             ++s.declined;
         else if (std::abs(ours.volume - theirs.volume) >
-                 accepted_difference * std::max(std::abs(ours.volume), volume_of(a)))
+                 accepted_difference * std::max(std::abs(ours.volume), volume_of(meshes[0])))
             ++s.different;
     }
 
@@ -193,6 +235,13 @@ public:
 
 private:
     const std::string& any_file() { return files_[random_() % files_.size()]; }
+    Placement any_placement() {
+        Placement out;
+        out.turned = random_() % 2 != 0;
+        out.flush_axis = random_() % 2 != 0 ? static_cast<int>(random_() % 3) : -1;
+        for (double& at : out.at) at = static_cast<double>(random_() % 1000) / 1000;
+        return out;
+    }
     static double volume_of(const PolygonMesh& mesh) {
         return std::abs(trisect::volume(trisect::Solid::from_mesh(mesh).to_exact_mesh()));
     }
@@ -205,6 +254,7 @@ private:
     std::vector<std::string> files_;
     std::mt19937 random_;
     int rounds_;
+    std::size_t operands_;
     std::map<std::string, PolygonMesh> meshes_;
     std::map<std::string, Summary> summaries_;
 };
@@ -215,23 +265,27 @@ int main(int argc, char** argv) {
     int seed = 1;
     int pairs = 100;
     int rounds = 2;
+    int operands = 2;
     std::vector<std::string> files;
     for (int i = 1; i < argc; ++i) {
         const std::string_view option = argv[i];
-        int* value = option == "--seed"     ? &seed
-                     : option == "--pairs"  ? &pairs
-                     : option == "--rounds" ? &rounds
-                                            : nullptr;
+        int* value = option == "--seed"       ? &seed
+                     : option == "--pairs"    ? &pairs
+                     : option == "--rounds"   ? &rounds
+                     : option == "--operands" ? &operands
+                                              : nullptr;
         if (value != nullptr && i + 1 < argc)
             *value = std::atoi(argv[++i]);
         else
             files.emplace_back(option);
     }
     if (files.empty()) {
-        std::fprintf(stderr, "usage: %s [--seed N] [--pairs N] [--rounds N] FILE...\n", argv[0]);
+        std::fprintf(stderr,
+                     "usage: %s [--seed N] [--pairs N] [--operands N] [--rounds N] FILE...\n",
+                     argv[0]);
         return 2;
     }
-    Pairs all(files, static_cast<unsigned>(seed), rounds);
+    RandomFormulas all(files, seed, rounds, operands);
     for (int i = 0; i < pairs; ++i) {
         try {
             all.compare_one();

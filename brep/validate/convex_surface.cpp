@@ -31,6 +31,7 @@ public:
     [[nodiscard]] bool is_convex() const {
         for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
             check_stop();
+            if (!has_area(t)) return false;
             const Plane plane = plane_of(t);
             for (std::uint32_t i = 0; i < 3; ++i)
                 if (!bends_down(3 * t + i, plane) || !is_one_row(3 * t + i, plane)) return false;
@@ -42,6 +43,11 @@ private:
     static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
     static std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
     [[nodiscard]] std::uint32_t from(std::uint32_t h) const { return triangles_[h / 3][h % 3]; }
+    // Rounding may leave corners in a row.
+    [[nodiscard]] bool has_area(std::uint32_t t) const {
+        const auto& [a, b, c] = triangles_[t];
+        return !are_collinear(points_[a], points_[b], points_[c]);
+    }
     [[nodiscard]] Plane plane_of(std::uint32_t t) const {
         const auto& [a, b, c] = triangles_[t];
         return Plane::through(points_[a], points_[b], points_[c]);
@@ -52,7 +58,7 @@ private:
         const std::uint32_t twin = twins_[h];
         const Side side = side_of(points_[from(previous(twin))], plane);
         if (side != Side::On) return side == Side::Below;
-        return same_orientation(plane, plane_of(twin / 3));
+        return has_area(twin / 3) && same_orientation(plane, plane_of(twin / 3));
     }
 
     // Around the corner where a half-edge of the plane's triangle begins.

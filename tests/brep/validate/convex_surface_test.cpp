@@ -2,6 +2,7 @@
 //
 // Local convexity, against that of the whole and against validation, which compares all pairs.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/certificate.h>
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/convex_sweep.h>
@@ -65,6 +67,31 @@ TEST(ConvexSurface, TwiceAroundIsNone) {
     }
     EXPECT_TRUE(trisect::is_convex(mesh));
     EXPECT_FALSE(is_convex_surface(mesh));
+}
+
+// A tetrahedron one edge of which has a corner on one side alone, and a triangle without area in
+// between, as rounding leaves it.
+TEST(ConvexSurface, ATriangleOfCornersInARowIsNone) {
+    const std::vector<trisect::Point3d> points{
+        {0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {2, 0, 0}};
+    std::vector<std::array<std::uint32_t, 3>> triangles{{0, 2, 1}, {0, 4, 3}, {4, 1, 3},
+                                                        {0, 3, 2}, {1, 2, 3}, {0, 1, 4}};
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        std::rotate(triangles.begin(), triangles.begin() + 1, triangles.end());
+        LatticeMesh mesh;
+        for (const auto& p : points)
+            mesh.points.push_back(
+                {trisect::Coordinate(p[0]), trisect::Coordinate(p[1]), trisect::Coordinate(p[2])});
+        mesh.triangles = triangles;
+        EXPECT_FALSE(is_convex_surface(mesh));
+        PolygonMesh written;
+        written.points = points;
+        for (const auto& t : triangles) written.add_triangle(t[0], t[1], t[2]);
+        const trisect::Certificate certificate = trisect::certify(written);
+        EXPECT_TRUE(certificate.closed);
+        EXPECT_TRUE(certificate.oriented);
+        EXPECT_EQ(certificate.self_intersecting_pairs, 0U);
+    }
 }
 
 TEST(ConvexSurface, OfHullsWithCornersMoved) {
