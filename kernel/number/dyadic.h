@@ -31,6 +31,12 @@ struct Dyadic {
     return {v < 0 ? -odd : odd, std::max(biased, 1) - 1075 + zeros};
 }
 
+/// The least e with |v| < 2^e. \pre finite, not 0.
+[[nodiscard]] constexpr int exponent_above(double v) {
+    const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(v) >> 52 & 0x7ffU);
+    return std::max(biased, 1) - 1022;
+}
+
 /// The bits behind the point: the least n >= 0 for which c 2^n is an integer.
 [[nodiscard]] constexpr int fraction_bits(Coordinate c) {
     return c.is_whole() ? 0 : -dyadic(c.to_double()).exponent;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Filtered orientation of four exact points.
+// Orientation of four exact points, filtered and exact.
 #pragma once
+
+#include <optional>
 
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/filters.h>
@@ -15,5 +17,11 @@ namespace trisect::detail {
     static_assert(Roundoff<double>::times_8 == orientation_rounding);
     return filter_orientation(a, b, c, d).sign();
 }
+
+/// The same, exact, for any doubles; nothing where a coordinate along an axis takes 126 bits or
+/// more in units of the last bit that any of the four points has there. No plane is made for it,
+/// which has ten times the digits.
+[[nodiscard]] std::optional<int> exact_orientation_of_fractions(const Vector3& a, const Vector3& b,
+                                                                const Vector3& c, const Vector3& d);
 
 }  // namespace trisect::detail

@@ -20,6 +20,8 @@
 #include <trisect/bsp/assembly/parts/facet_boxes.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/radix_sort.h>
 
 namespace trisect::detail {
 
@@ -31,7 +33,7 @@ public:
     explicit LackingCrossings(BoundaryParts& parts) : parts_(parts) {
         for (const BoundaryEdge& e : parts.edges)
             if (facet(e).is_special) edges_.push_back(e);
-        std::ranges::stable_sort(edges_, {}, [](const BoundaryEdge& e) { return ends_of(e); });
+        radix_sort(edges_, [](const BoundaryEdge& e) { return ends_of(e); });
     }
     [[nodiscard]] bool add() {
         for (std::size_t i = 0; i < edges_.size();) {
@@ -85,7 +87,7 @@ private:
         ending_.clear();
         others_.clear();
         const auto look_at = [&](std::int32_t number) {
-            note_facet(number, e);
+            note_facet(number, edges);
             return true;
         };
         (void)boxes_->all_around(parts_.bench.approximation(e.from),
@@ -97,28 +99,38 @@ private:
         if (!may_cross()) return true;
         for (const std::int32_t number : others_)
             if (!note_inside(number, e)) return false;
-        if (cross_straight(here_))
+        if (!inside_.empty() && cross_straight(here_))
             parts_.crossings.insert(parts_.crossings.end(), inside_.begin(), inside_.end());
         return true;
     }
-    // What a facet has of a segment, by its edges. Else it may have it inside, unless another one
-    // of its face ends there.
-    void note_facet(std::int32_t number, const BoundaryEdge& e) {
+    // What a facet has of a segment, by its edges on that. Else it may have it inside, unless
+    // another one of its face ends there.
+    void note_facet(std::int32_t number, Edges edges) {
         const BoundaryFacet& f = parts_.facets[as_index(number)];
-        const bool is_in_plane = std::ranges::any_of(
-            planes_, [&](const OfPlane& o) { return are_one(o.plane, f.support); });
-        if (!is_in_plane &&
-            (parts_.bench.side(e.from, f.support) != 0 || parts_.bench.side(e.to, f.support) != 0))
-            return;
         int up = 0;
-        for (const BoundaryEdge& own : edges_of(number))
-            if (ends_of(own) == ends_of(e)) up += own.from < own.to ? 1 : -1;
+        bool has_edge = false;
+        for (const BoundaryEdge& e : edges) {
+            if (e.facet != number) continue;
+            has_edge = true;
+            up += e.from < e.to ? 1 : -1;
+        }
         if (up != 0) {
             here_.push_back({f.source, f.facet, f.flipped, up > 0});
             ending_.push_back(number);
-        } else {
+        } else if (has_edge || is_in_plane_of(edges[0], f.support)) {
             others_.push_back(number);
         }
+    }
+    // Doubles leave it open for all planes through the segment.
+    [[nodiscard]] bool is_in_plane_of(const BoundaryEdge& e, PlaneId support) {
+        const Workbench& bench = parts_.bench;
+        const Plane& plane = bench.plane_at(support);
+        if (filtered_side(bench.approximation(e.from), plane) ||
+            filtered_side(bench.approximation(e.to), plane))
+            return false;
+        return std::ranges::any_of(planes_,
+                                   [&](const OfPlane& o) { return are_one(o.plane, support); }) ||
+               (side_at(e.from, support) == 0 && side_at(e.to, support) == 0);
     }
     // Whether two faces may go straight across: such as are divided there, and others.
     [[nodiscard]] bool may_cross() const {
@@ -182,10 +194,29 @@ private:
         if (turn == 0) return std::nullopt;
         return ((turn > 0) == (way > 0)) != f.flipped;
     }
+    // Many segments lie in one line, and around each the same planes are compared, and the same
+    // points, which mostly are on them: what takes integers is kept.
     [[nodiscard]] bool are_one(PlaneId a, PlaneId b) const {
         const Workbench& bench = parts_.bench;
-        return bench.plane_class(a) == bench.plane_class(b) ||
-               is_same_plane(bench.plane_at(a), bench.plane_at(b));
+        const PlaneId p = bench.plane_class(a);
+        const PlaneId q = bench.plane_class(b);
+        if (p == q) return true;
+        const Key128 key{static_cast<std::uint64_t>(std::min(p, q)),
+                         static_cast<std::uint64_t>(std::max(p, q))};
+        if (const std::int32_t known = same_planes_.find(key); known >= 0) return known != 0;
+        const bool same = is_same_plane(bench.plane_at(a), bench.plane_at(b));
+        same_planes_.insert(key, same ? 1 : 0);
+        return same;
+    }
+    [[nodiscard]] int side_at(PointId point, PlaneId plane) const {
+        const Workbench& bench = parts_.bench;
+        if (const auto s = filtered_side(bench.approximation(point), bench.plane_at(plane)))
+            return sign_of(*s);
+        const Key128 key{static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(plane)};
+        if (const std::int32_t known = sides_.find(key); known >= 0) return known - 1;
+        const int exact = bench.side(point, plane);
+        sides_.insert(key, exact + 1);
+        return exact;
     }
     // Through the segment, another plane than this one.
     [[nodiscard]] std::optional<PlaneId> plane_across(PlaneId support) const {
@@ -197,19 +228,18 @@ private:
     // an odd number of edges of the outline.
     [[nodiscard]] Place place_in(std::int32_t number, const BoundaryEdge& segment,
                                  PlaneId across) const {
-        const Workbench& bench = parts_.bench;
         bool inside = false;
         for (const BoundaryEdge& e : edges_of(number)) {
             if (ends_of(e) == ends_of(segment)) continue;
-            const int from = bench.side(e.from, across);
-            const int to = bench.side(e.to, across);
+            const int from = side_at(e.from, across);
+            const int to = side_at(e.to, across);
             if (from == to && from != 0) continue;
             if (from == 0 && to == 0) {
                 if (!are_apart(segment, e)) return Place::Unknown;
                 continue;
             }
-            const int a = bench.side(segment.from, e.line.plane);
-            const int b = bench.side(segment.to, e.line.plane);
+            const int a = side_at(segment.from, e.line.plane);
+            const int b = side_at(segment.to, e.line.plane);
             if (a == -b) return Place::Unknown;
             if ((from > 0) == (to > 0)) continue;
             const bool is_up = to > from;
@@ -240,9 +270,9 @@ private:
         }
         if (bench.is_corner(end)) return are_about(end, other, e);
         for (const PlaneId plane : bench.planes_of(end)) {
-            const int side = bench.side(other, plane);
+            const int side = side_at(other, plane);
             if (side == 0) continue;
-            return side * bench.side(e.from, plane) <= 0 && side * bench.side(e.to, plane) <= 0;
+            return side * side_at(e.from, plane) <= 0 && side * side_at(e.to, plane) <= 0;
         }
         return false;
     }
@@ -266,8 +296,8 @@ private:
         const double error = bench.approximation(other).error + bench.approximation(near).error;
         if (longest <= 2 * (longest_near + error_slack * (p.error + error))) return false;
         for (const PlaneId plane : bench.planes_of(near)) {
-            const int side = bench.side(end, plane);
-            if (side != 0) return side == bench.side(other, plane);
+            const int side = side_at(end, plane);
+            if (side != 0) return side == side_at(other, plane);
         }
         return false;
     }
@@ -277,7 +307,8 @@ private:
     }
     void list_boxes() {
         by_facet_ = edges_;
-        std::ranges::stable_sort(by_facet_, {}, &BoundaryEdge::facet);
+        radix_sort(by_facet_,
+                   [](const BoundaryEdge& e) { return static_cast<std::uint64_t>(e.facet); });
         first_.assign(parts_.facets.size() + 1, 0);
         for (const BoundaryEdge& e : by_facet_) ++first_[as_index(e.facet) + 1];
         for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
@@ -306,6 +337,8 @@ private:
     std::vector<BoundaryEdge> inside_;
     std::vector<std::int32_t> ending_;  // facets that end there
     std::vector<std::int32_t> others_;
+    mutable FlatMap same_planes_;  // of two classes
+    mutable FlatMap sides_;        // of points and planes, and 1
 };
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/kernel/counters.h>
+#include <trisect/kernel/number/orientation.h>
 
 namespace trisect::detail {
 
@@ -74,11 +75,12 @@ private:
     std::size_t count_ = 0;
 };
 
-// False where that takes more than whole coordinates.
+// False where coordinates span too many bits.
 bool are_coplanar(const NamedEdge& e, const NamedEdge& f) {
-    if (!e.source->is_whole() || !f.source->is_whole()) return false;
     ++detail::counters_of_thread<PredicateCounters>.exact_short;
-    return exact_orientation(e.end(0), e.end(1), f.end(0), f.end(1)) == 0;
+    const bool is_whole = e.source->is_whole() && f.source->is_whole();
+    const auto orientation = is_whole ? exact_orientation : exact_orientation_of_fractions;
+    return orientation(e.end(0), e.end(1), f.end(0), f.end(1)) == 0;
 }
 
 }  // namespace

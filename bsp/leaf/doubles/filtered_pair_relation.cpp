@@ -215,14 +215,16 @@ int side_of_edge(const FilteredFacet& a, std::size_t edge_a, bool up, const Appr
                  const FilteredFacets& facets, const FilteredFacet& b, std::size_t edge_b) {
     const int mesh_a = a.mesh_edge(edge_a);
     const int mesh_b = b.mesh_edge(edge_b);
-    if (facets.is_whole() && mesh_a >= 0 && mesh_b >= 0) {
+    if (mesh_a >= 0 && mesh_b >= 0) {
         const auto end = [](const FilteredFacet& f, int i) -> const Vector3& {
             return f.corners[static_cast<std::size_t>(i % 3)];
         };
         // For a line that goes up through p, det(w - u, p - u, q - u) > 0 where it passes on the
         // left of the way from p to q.
-        const auto s = exact_orientation(end(a, mesh_a + 1), end(b, mesh_b), end(b, mesh_b + 1),
-                                         end(a, mesh_a));
+        const auto orientation =
+            facets.is_whole() ? exact_orientation : exact_orientation_of_fractions;
+        const auto s =
+            orientation(end(a, mesh_a + 1), end(b, mesh_b), end(b, mesh_b + 1), end(a, mesh_a));
         if (s) return up ? *s : -*s;
     }
     const EdgeName edge = b.edge(edge_b);
