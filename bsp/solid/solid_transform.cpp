@@ -17,12 +17,13 @@
 #include <span>
 #include <utility>
 
-#include <trisect/brep/embedding_findings.h>
 #include <trisect/brep/import/thin_triangles.h>
 #include <trisect/brep/import_mesh.h>
+#include <trisect/brep/kinds/facet_kinds.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/brep/number/gmp_conversion.h>
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/evaluate/half_space.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
@@ -255,17 +256,25 @@ std::pair<std::vector<FaceSource>, std::vector<std::uint32_t>> numbered(
     return out;
 }
 
-StatePtr state_of(LatticeMesh mesh, bool t_edges, std::uint32_t operand,
-                  std::vector<FaceSource> names, bool is_complement) {
+// What is left of a solid after rounding, as a mesh.
+struct RoundedSolid {
+    LatticeMesh mesh;
+    std::vector<FaceSource> names;
+    bool t_edges = false;
+    bool is_embedded = false;
+};
+
+StatePtr state_of(RoundedSolid made, std::uint32_t operand, bool is_complement) {
     auto state = std::make_shared<SolidState>();
-    state->lattice = mesh.lattice;
-    EmbeddingFindings findings = find_embedding(mesh);
-    state->embedded = findings.is_embedded;
-    auto source = detail::Source::named(detail::Source::make(std::move(mesh)), std::move(names));
-    if (findings.kinds)
-        source = detail::Source::of_kinds(std::move(source), *std::move(findings.kinds));
+    state->lattice = made.mesh.lattice;
+    state->embedded = made.is_embedded;
+    std::optional<std::vector<detail::FacetKind>> kinds;
+    if (!made.is_embedded) kinds = detail::facet_kinds(made.mesh);
+    auto source =
+        detail::Source::named(detail::Source::make(std::move(made.mesh)), std::move(made.names));
+    if (kinds) source = detail::Source::of_kinds(std::move(source), *std::move(kinds));
     state->form =
-        detail::CellTree{{detail::uncut_root(*source, t_edges), is_complement}, {}, nullptr};
+        detail::CellTree{{detail::uncut_root(*source, made.t_edges), is_complement}, {}, nullptr};
     state->whole = source->is_whole();
     state->source = operand != 0 ? operand : source->serial();
     state->far_out = is_complement ? 1 : 0;
@@ -285,15 +294,15 @@ bool is_rounded(const ExactMesh& exact, const Pose& pose, const PolygonMesh& the
 
 // Nothing where no triangle is left.
 // `origin`: of its triangles among those of the mesh before it.
-StatePtr imported(const PolygonMesh& rounded, std::span<const std::uint32_t> origin,
-                  const ExactMesh& before, const Solid& solid, bool is_complement,
-                  LatticeReport* report) {
+std::optional<RoundedSolid> imported(const PolygonMesh& rounded,
+                                     std::span<const std::uint32_t> origin, const ExactMesh& before,
+                                     LatticeReport* report) {
     ImportedMesh made = import_mesh(rounded);
     // Where triangles that rounding made flat are gone, fronts and backs may be left. The sum over
     // the triangles is asked, not the boundary of the set: they may meet each other.
     if (made.mesh.triangles.empty() || (made.mesh.triangles.size() < before.triangles.size() &&
                                         exact_volume(made.mesh).sign() == 0))
-        return nullptr;
+        return std::nullopt;
     if (report != nullptr) {
         const LatticeReport& import = made.report.lattice;
         report->lattice = import.lattice;
@@ -309,9 +318,10 @@ StatePtr imported(const PolygonMesh& rounded, std::span<const std::uint32_t> ori
     for (std::uint32_t t = 0; t < made.mesh.triangles.size(); ++t)
         faces.push_back(number[origin[made.mesh.face_of(t)]]);
     made.mesh.face_of_triangle = std::move(faces);
+    const bool embedded = is_embedded(made.mesh);
     // Corners of triangles that are gone lie inside edges of others.
-    return state_of(std::move(made.mesh), made.report.t_edges != 0, solid.source_id(),
-                    std::move(names), is_complement);
+    const bool t_edges = made.report.t_edges != 0;
+    return RoundedSolid{std::move(made.mesh), std::move(names), t_edges, embedded};
 }
 
 StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
@@ -325,23 +335,24 @@ StatePtr rounded(const Solid& solid, const Pose& pose, LatticeReport* report) {
     std::vector<std::uint32_t> same(mesh.triangles.size());
     std::iota(same.begin(), same.end(), 0U);
     const LatticeReport before = report == nullptr ? LatticeReport() : *report;
-    const StatePtr out = imported(there, same, mesh, solid, is_complement, report);
-    if (out == nullptr)
-        throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    std::optional<RoundedSolid> out = imported(there, same, mesh, report);
+    if (!out) throw Error(ErrorCode::InvalidSolid, "nothing is left of a transformed solid");
+    const auto taken = [&](std::optional<RoundedSolid>& made) {
+        return state_of(*std::move(made), solid.source_id(), is_complement);
+    };
     // What was not rounded met itself before, and stays so.
-    if (out->embedded || !is_rounded(mesh, pose, there)) return out;
+    if (out->is_embedded || !is_rounded(mesh, pose, there)) return taken(out);
     // Thin triangles that were turned over meet their neighbours.
     for (const double units : {4.0, 16.0}) {
         const detail::ThickMesh thick = detail::thick_mesh(there, units * 0x1p-52);
         LatticeReport other = before;
         other.max_move += thick.move;
-        const StatePtr embedded =
-            imported(thick.mesh, thick.origin, mesh, solid, is_complement, &other);
-        if (embedded == nullptr || !embedded->embedded) continue;
+        std::optional<RoundedSolid> embedded = imported(thick.mesh, thick.origin, mesh, &other);
+        if (!embedded || !embedded->is_embedded) continue;
         if (report != nullptr) *report = other;
-        return embedded;
+        return taken(embedded);
     }
-    return out;
+    return taken(out);
 }
 
 }  // namespace
