@@ -56,6 +56,7 @@ FilteredPart& FilteredCutting::add_part() {
 // The whole outline.
 bool FilteredCutting::make_shape() {
     vertices_.clear();
+    exact_signs_.clear();
     const FilteredFacet& f = (*facets_)[item_];
     facets_->make_outline(item_);
     clipped_.size = 0;
@@ -77,6 +78,9 @@ void FilteredCutting::start_item(LeafIndex item) {
     contacts_ = pairs_->contacts(item);
     sides_.clear();
     count_ = 0;
+    planes_.clear();
+    plane_of_line_.clear();
+    exact_signs_.clear();
 }
 
 // Whether an operand other than a facet's own decides the formula on both of its sides.

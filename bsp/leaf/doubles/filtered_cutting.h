@@ -13,6 +13,7 @@
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/leaf/doubles/filtered_windings.h>
 #include <trisect/bsp/leaf/leaf_formula.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
@@ -21,6 +22,8 @@ namespace trisect::detail {
 using FilteredLine = std::int16_t;
 inline constexpr FilteredLine first_splitter_line = FilteredFacet::max_outline;
 inline constexpr FilteredLine first_contact_line = first_splitter_line + 6;
+/// Stands for the support of the item, where planes are asked for.
+inline constexpr FilteredLine own_support = -1;
 
 /// A vertex of a part: where two lines meet.
 struct FilteredVertex {
@@ -148,10 +151,11 @@ private:
         return crossing_of(contact).ends[contacts_[contact].is_second != last ? 1 : 0];
     }
     [[nodiscard]] bool is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
-                                     const LineDirection& direction) const;
+                                     const LineDirection& direction);
     [[nodiscard]] PlaneName plane_of(FilteredLine line) const;
-    [[nodiscard]] int exact_sign(std::int16_t vertex, const Plane& plane) const;
-    [[nodiscard]] Approximation exact_point(const std::array<FilteredLine, 2>& lines) const;
+    [[nodiscard]] std::size_t made_plane(FilteredLine line);
+    [[nodiscard]] int exact_sign(std::int16_t vertex, const Plane& plane);
+    [[nodiscard]] Approximation exact_point(const std::array<FilteredLine, 2>& lines);
     [[nodiscard]] bool passes(const FilteredVertex& vertex, std::size_t contact) const;
     [[nodiscard]] bool is_end(const FilteredVertex& vertex, std::size_t contact,
                               const FilteredEnd& end) const;
@@ -179,6 +183,11 @@ private:
     std::span<const FilteredContact> contacts_;
     std::vector<std::int16_t> line_;  // of a contact: the first one in the same plane
     std::vector<FilteredVertex> vertices_;
+    // Of the item, where doubles do not decide: planes of lines, which are asked for again and
+    // again, and the signs of vertices at contacts, and 1.
+    std::vector<Plane> planes_;
+    std::vector<std::int32_t> plane_of_line_;  // by line, the item's support first; -1: not made
+    FlatMap exact_signs_;
     std::vector<FilteredPart> parts_;  // the first count_ are in use
     std::size_t count_ = 0;
     std::vector<int> sides_;  // rows above and below one part after the other

@@ -98,22 +98,39 @@ PlaneName FilteredCutting::plane_of(FilteredLine line) const {
     return PlaneName::support(other.source, other.facet);
 }
 
-int FilteredCutting::exact_sign(std::int16_t vertex, const Plane& plane) const {
+// Its place in planes_, of a line or of the item's support.
+std::size_t FilteredCutting::made_plane(FilteredLine line) {
+    if (plane_of_line_.empty())
+        plane_of_line_.assign(first_contact_line + contacts_.size() + 1, -1);
+    std::int32_t& place = plane_of_line_[static_cast<std::size_t>(line + 1)];
+    if (place < 0) {
+        place = static_cast<std::int32_t>(planes_.size());
+        const PolygonRef& own = (*facets_)[item_].ref;
+        planes_.push_back(line == own_support ? own.source->support(own.facet)
+                                              : plane_of(line).plane());
+    }
+    return static_cast<std::size_t>(place);
+}
+
+int FilteredCutting::exact_sign(std::int16_t vertex, const Plane& plane) {
     const FilteredVertex& v = vertices_[static_cast<std::size_t>(vertex)];
     const FilteredFacet& f = (*facets_)[item_];
     const PolygonRef& ref = f.ref;
     if (f.is_whole() && vertex < f.size)
         return trisect::sign_of(side_of(ref.source->corner(ref.facet, vertex), plane));
-    return trisect::sign_of(side_of(facets_->in_lattice(v.at), ref.source->support(ref.facet),
-                                    plane_of(v.lines[0]).plane(), plane_of(v.lines[1]).plane(),
-                                    plane));
+    const std::size_t own = made_plane(own_support);
+    const std::size_t first = made_plane(v.lines[0]);
+    const std::size_t second = made_plane(v.lines[1]);
+    return trisect::sign_of(
+        side_of(facets_->in_lattice(v.at), planes_[own], planes_[first], planes_[second], plane));
 }
 
 // Where two lines meet, for lines that are nearly parallel.
-Approximation FilteredCutting::exact_point(const std::array<FilteredLine, 2>& lines) const {
-    const PolygonRef& ref = (*facets_)[item_].ref;
-    return facets_->from_lattice(approximate(
-        ref.source->support(ref.facet), plane_of(lines[0]).plane(), plane_of(lines[1]).plane()));
+Approximation FilteredCutting::exact_point(const std::array<FilteredLine, 2>& lines) {
+    const std::size_t own = made_plane(own_support);
+    const std::size_t first = made_plane(lines[0]);
+    const std::size_t second = made_plane(lines[1]);
+    return facets_->from_lattice(approximate(planes_[own], planes_[first], planes_[second]));
 }
 
 // -1 below the contact's support, 0 on it, 1 above.
@@ -124,13 +141,18 @@ int FilteredCutting::sign_at(std::int16_t vertex, std::size_t contact) {
     if (passes(vertices_[v], contact)) return 0;
     const int s = facets_->plane(c.other).sign(vertices_[v].at);
     if (s != 0) return s;
-    const PolygonRef& other = (*facets_)[c.other].ref;
-    return exact_sign(vertex, other.source->support(other.facet));
+    const Key128 key{v, contact};
+    if (const std::int32_t known = exact_signs_.find(key); known >= 0) return known - 1;
+    const auto line = static_cast<FilteredLine>(first_contact_line + static_cast<int>(contact));
+    const Plane plane = planes_[made_plane(line)];  // others are made
+    const int exact = exact_sign(vertex, plane);
+    exact_signs_.insert(key, exact + 1);
+    return exact;
 }
 
 // Whether a vertex on a contact's line is strictly on the inner side of an end of its segment.
 bool FilteredCutting::is_inside_end(std::int16_t vertex, std::size_t contact, bool last,
-                                    const LineDirection& direction) const {
+                                    const LineDirection& direction) {
     const FilteredVertex& v = vertices_[static_cast<std::size_t>(vertex)];
     const FilteredEnd& end = end_of(contact, last);
     if (is_end(v, contact, end)) return false;
