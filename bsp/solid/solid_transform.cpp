@@ -363,12 +363,12 @@ Solid transformed(const Solid& solid, const Pose& pose, LatticeReport* report) {
     Solid out = solid;
     if (detail::state_of(solid)->lattice_matters && !(pose == Pose())) {
         const auto permutation = permutation_of(pose);
-        const StatePtr state = detail::cut_state(solid);
         std::optional<StatePtr> there;
-        if (permutation && !state->whole) {
-            there = moved_with_fractions(state, *permutation, pose);
-        } else if (permutation) {
-            there = moved(state, *permutation, pose, made);
+        // What is rounded needs the boundary alone, and no tree.
+        if (permutation) {
+            const StatePtr state = detail::cut_state(solid);
+            there = state->whole ? moved(state, *permutation, pose, made)
+                                 : moved_with_fractions(state, *permutation, pose);
         }
         out = detail::solid_of(there ? *there
                                      : rounded(solid, pose, report == nullptr ? nullptr : &made));
