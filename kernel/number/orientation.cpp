@@ -18,9 +18,9 @@ namespace {
 
 using Rows = std::array<std::array<Int128, 3>, 3>;
 
-// By products of N limbs and 2 N limbs. A minor is twice the area of a triangle, at most that of a
-// box, and the sum at most twice the volume of a box: sides below 2^63 give 2^126 and 2^190, sides
-// below 2^127 give 2^254 and 2^382.
+// By products of N limbs and 2 N limbs. Of entries below 2^e minors are below 2^(2 e + 1), and the
+// determinant is below 4 · 2^(3 e), the most that three rows of 1 and -1 have. That is 2^127 and
+// 2^191 for 63 bits, 2^255 and 2^383 for 127.
 template <int N>
 int sign_of_determinant(const Rows& m) {
     WideInt<3 * N> sum;
