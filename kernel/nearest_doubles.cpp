@@ -156,30 +156,85 @@ std::optional<Vector3> rounded(const std::array<std::int64_t, 3>& c, const Enclo
     return out;
 }
 
-std::optional<Vector3> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
-                                        const Plane& r) {
+// An approximate point as integers times 2^-k.
+struct NearPoint {
+    std::array<std::int64_t, 3> c{};
+    int k = 0;
+    double reach = 0;  // from the exact one
+};
+
+std::optional<NearPoint> near_point(const Approximation& a) {
     const double largest = std::max(largest_component(a.c), 0x1p-40);
     // In units of 2^-k the largest coordinate has 61 bits. A double has 53, so it is exact; what
     // others have below that is cut off.
-    const int k = 60 - (static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1023);
-    if (k < 0) return std::nullopt;
-    const double scale = power_of_two(k);
-    std::array<std::int64_t, 3> c{};
-    for (std::size_t i = 0; i < 3; ++i) c[i] = static_cast<std::int64_t>(a.c[i] * scale);
-    const double reach = a.error * scale + 1;
-    const System system{
-        {normal_of(p), normal_of(q), normal_of(r)},
-        {residual(p, c, k, reach), residual(q, c, k, reach), residual(r, c, k, reach)}};
+    NearPoint out;
+    out.k = 60 - (static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52) - 1023);
+    if (out.k < 0) return std::nullopt;
+    const double scale = power_of_two(out.k);
+    for (std::size_t i = 0; i < 3; ++i) out.c[i] = static_cast<std::int64_t>(a.c[i] * scale);
+    out.reach = a.error * scale + 1;
+    return out;
+}
+
+std::optional<Vector3> nearest_by(const System& system, const NearPoint& near) {
     const auto rounded_with = [&](const Bounds& bounds) -> std::optional<Vector3> {
         const auto step = solve(system, bounds);
-        return step ? rounded(c, *step) : std::nullopt;
+        return step ? rounded(near.c, *step) : std::nullopt;
     };
     auto nearest = rounded_with(rough_bounds(system));
     if (!nearest) nearest = rounded_with(sharp_bounds(system));
     if (!nearest) return std::nullopt;
-    const double unit = power_of_two(-k);
+    const double unit = power_of_two(-near.k);
     for (double& v : *nearest) v *= unit;
     return nearest;
+}
+
+std::optional<Vector3> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
+                                        const Plane& r) {
+    const auto near = near_point(a);
+    if (!near) return std::nullopt;
+    const auto residual_of = [&](const Plane& plane) {
+        return residual(plane, near->c, near->k, near->reach);
+    };
+    return nearest_by({{normal_of(p), normal_of(q), normal_of(r)},
+                       {residual_of(p), residual_of(q), residual_of(r)}},
+                      *near);
+}
+
+// Of at most 126 bits, within two roundings.
+double signed_to_double(Uint128 v) { return (v >> 127) != 0 ? -to_double(-v) : to_double(v); }
+
+// The normal, of at most 109 bits, and the residual as above, of which the way from a corner does
+// not change anything. Normals carry two roundings, too: with that determinants are within 14 u.
+// False where the residual may have more than 126 bits.
+bool add_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row, System& system) {
+    const LatticePoint& a = *plane.corners[0];
+    const auto way = [&](std::size_t corner, std::size_t k) {
+        const auto axis = static_cast<int>(k);
+        return (*plane.corners[corner])[axis].to_integer() - a[axis].to_integer();
+    };
+    std::array<Int128, 3> n{};
+    if (plane.axis < 0) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t l = (i + 2) % 3;
+            n[i] = Int128{way(1, j)} * way(2, l) - Int128{way(1, l)} * way(2, j);
+        }
+    } else {
+        const auto k = static_cast<std::size_t>(plane.axis);
+        n[(k + 1) % 3] = way(1, (k + 2) % 3);
+        n[(k + 2) % 3] = -way(1, (k + 1) % 3);
+    }
+    Uint128 sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Int128 at = a[static_cast<int>(i)].to_integer();
+        const Uint128 from =
+            static_cast<Uint128>(Int128{near.c[i]}) - (static_cast<Uint128>(at) << near.k);
+        sum += static_cast<Uint128>(n[i]) * from;
+        system.n[row][i] = signed_to_double(static_cast<Uint128>(n[i]));
+    }
+    system.d[row] = signed_to_double(sum);
+    return sum_of_magnitudes(system.n[row]) * near.reach < 0x1p125;
 }
 
 }  // namespace
@@ -242,6 +297,18 @@ std::array<double, 3> nearest_doubles(const HomogeneousPoint& p) {
     if (p.is_short()) return {short_quotient(p, 0), short_quotient(p, 1), short_quotient(p, 2)};
     return {nearest_double(p.xyz[0], p.w), nearest_double(p.xyz[1], p.w),
             nearest_double(p.xyz[2], p.w)};
+}
+
+std::optional<std::array<double, 3>> nearest_doubles(const Approximation& approximation,
+                                                     const std::array<CornerPlane, 3>& planes) {
+    const auto near = near_point(approximation);
+    if (!near) return std::nullopt;
+    System system{};
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!add_plane(planes[i], *near, i, system)) return std::nullopt;
+    const auto nearest = nearest_by(system, *near);
+    if (nearest) ++detail::counters_of_thread<PredicateCounters>.filtered;
+    return nearest;
 }
 
 std::array<double, 3> nearest_doubles(const Approximation& approximation, const Plane& p,

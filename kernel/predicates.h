@@ -67,6 +67,16 @@ struct Approximation {
 [[nodiscard]] std::array<double, 3> nearest_doubles(const Approximation& approximation,
                                                     const Plane& p, const Plane& q, const Plane& r);
 
+/// A plane by corners of a mesh: through three of them, or through two, parallel to an axis.
+struct CornerPlane {
+    std::array<const LatticePoint*, 3> corners{};
+    int axis = -1;  ///< -1: through all three
+};
+/// The same for the common point of such planes, which need not be made; nothing where doubles do
+/// not decide. \pre the corners are whole
+[[nodiscard]] std::optional<std::array<double, 3>> nearest_doubles(
+    const Approximation& approximation, const std::array<CornerPlane, 3>& planes);
+
 /// Side of a lattice point, degree 3.
 [[nodiscard]] Side side_of(const LatticePoint& point, const Plane& plane);
 /// Side of the point p∩q∩r, whose approximation the caller holds; degree 9.

@@ -106,6 +106,7 @@ private:
     void mark_outlined(const UndividedMeshes& meshes);
     void add_outlined_edges(const UndividedMeshes& meshes);
     void number_facets();
+    void reserve_names() { out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size()); }
     void make_parts(AssembledLeaf& leaf);
     void make_list_parts(const AssembledLeaf& leaf);
     void make_part(const PolygonRef& ref, const AssembledLeaf& leaf, std::int32_t facet);
@@ -159,6 +160,7 @@ void Gatherer::gather(const CellTree& tree) {
     mark_leaves();
     if (defers_) mark_crossed(*tree.crossings);
     number_facets();
+    reserve_names();
     if (defers_) trace_facets(*tree.crossings, out_, edges_, threads_);
 }
 
@@ -178,6 +180,7 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
     if (meshes.outlined != nullptr) {
         add_outlined_edges(meshes);
     } else {
+        reserve_names();
         for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get())
             trace_facets(*m->crossings, out_, edges_, threads_);
     }
@@ -194,6 +197,7 @@ void Gatherer::gather(const PrismOutlines& prisms) {
     mark_leaves();
     mark_outlines(*prisms.outlines);
     number_facets();
+    reserve_names();
     add_outlines(*prisms.outlines, out_, edges_);
 }
 
@@ -502,7 +506,6 @@ void Gatherer::number_facets() {
             });
         });
     }
-    out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size());
 }
 
 // Whether something of the leaf bounds the result, is cut or touched, and has no edges yet.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/bsp/cells/facet_normal.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -42,6 +43,11 @@ void Workbench::reserve(std::size_t planes, std::size_t points) {
     line_ids_.reserve(planes / 2);
     points_.reserve(points);
     point_ids_.reserve(points);
+}
+
+void Workbench::reserve_unnamed(std::size_t planes, std::size_t points) {
+    planes_.reserve(planes);
+    points_.reserve(points);
 }
 
 PlaneId Workbench::add_plane(const PlaneName& name, PlaneId support) {
@@ -86,6 +92,13 @@ PlaneId Workbench::plane(const PlaneName& name) {
     return id + offset;
 }
 
+PlaneId Workbench::add_facet(const Source* source, std::uint32_t facet) {
+    const auto first = static_cast<PlaneId>(planes_.size());
+    for (int k = 0; k < 3; ++k) add_plane(PlaneName::edge(source, facet, k), first + 3);
+    add_plane(PlaneName::support(source, facet));
+    return first;
+}
+
 void Workbench::declare_same(PlaneId a, PlaneId b) {
     const PlaneId ca = plane_class(a);
     const PlaneId cb = plane_class(b);
@@ -104,6 +117,12 @@ PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
                            true});
     }
     return id;
+}
+
+PointId Workbench::add_corner(const Source* source, std::uint32_t vertex) {
+    points_.push_back(
+        {{-1, -1, -1}, vertex, source, approximate(source->mesh().points[vertex]), true});
+    return static_cast<PointId>(points_.size() - 1);
 }
 
 // Facets of one source that share an edge: its vertices.
@@ -220,6 +239,13 @@ PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId 
     return id;
 }
 
+PointId Workbench::add_point(PlaneId p, PlaneId q, PlaneId r, const Approximation& known) {
+    const Approximation at =
+        is_sharp(known) ? known : approximate(plane_at(p), plane_at(q), plane_at(r));
+    points_.push_back({{p, q, r}, 0, nullptr, at, is_lattice_point(at)});
+    return static_cast<PointId>(points_.size() - 1);
+}
+
 HomogeneousPoint Workbench::homogeneous(PointId id) const {
     const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) return trisect::homogeneous(r.lattice());
@@ -237,8 +263,53 @@ Point Workbench::point(PointId id) const {
 std::array<double, 3> Workbench::nearest(PointId id) const {
     const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) return r.approximation.c;
+    if (const auto nearest = nearest_by_corners(r)) return *nearest;
     return nearest_doubles(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]));
+}
+
+// Mostly doubles decide, and then the plane is not made.
+Workbench::Facing Workbench::facing(PlaneId support) const {
+    const PlaneName& n = name(support);
+    if (!is_made(support) && !n.is_splitter() && !n.source()->is_half_space()) {
+        const FacetNormal normal(*n.source(), n.facet);
+        const std::size_t k = normal.longest_axis();
+        const double least = std::fabs(normal.n[k]) - normal.error[k];
+        const auto is_shorter = [&](std::size_t i) {
+            return std::fabs(normal.n[i]) + normal.error[i] < slightly_less * least;
+        };
+        if (is_shorter((k + 1) % 3) && is_shorter((k + 2) % 3))
+            return {static_cast<int>(k), normal.n[k] > 0};
+    }
+    const Plane& p = plane_at(support);
+    const int k = p.dominant_axis();
+    return {k, p.normal(k) > 0};
+}
+
+// An edge is in any plane through it; the one along the longest axis meets others best.
+std::optional<CornerPlane> Workbench::by_corners(PlaneId id) const {
+    const PlaneName& n = name(id);
+    const Source* const source = n.source();
+    if (source == nullptr || source->is_half_space() || !source->is_whole()) return std::nullopt;
+    const auto corner = [&](std::uint32_t i) {
+        return &source->corner(n.facet, static_cast<int>(i % 3));
+    };
+    if (!n.is_edge()) return CornerPlane{{corner(0), corner(1), corner(2)}, -1};
+    const auto axis = static_cast<int>(FacetNormal(*source, n.facet).longest_axis());
+    return CornerPlane{{corner(n.kind), corner(n.kind + 1), nullptr}, axis};
+}
+
+// Of planes that are not there yet: these take longer to make, and memory.
+std::optional<std::array<double, 3>> Workbench::nearest_by_corners(const PointRecord& point) const {
+    if (std::ranges::all_of(point.planes, [&](PlaneId p) { return is_made(p); }))
+        return std::nullopt;
+    std::array<CornerPlane, 3> planes;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto plane = by_corners(point.planes[i]);
+        if (!plane) return std::nullopt;
+        planes[i] = *plane;
+    }
+    return nearest_doubles(point.approximation, planes);
 }
 
 // Whether the name of a plane says that it passes through a vertex of a source.

@@ -66,7 +66,21 @@ public:
         return id;
     }
 
+    /// Planes of the three edges of a facet, in a row; returns the first. They are new, and not
+    /// found by their names. \pre no half-space
+    PlaneId add_facet(const Source* source, std::uint32_t facet);
+    /// The axis along which the normal of a support is longest, and whether it points upwards
+    /// there.
+    struct Facing {
+        int axis = 0;
+        bool is_up = true;
+    };
+    [[nodiscard]] Facing facing(PlaneId support) const;
+
     PointId corner(const Source* source, std::uint32_t facet, int i);
+    /// A point that is new, and not found by name: a corner, or where three planes meet.
+    PointId add_corner(const Source* source, std::uint32_t vertex);
+    PointId add_point(PlaneId p, PlaneId q, PlaneId r, const Approximation& known);
     /// The common point of three planes. Found by name when it was made before: from the same three
     /// planes, or as the point where the same edge of a source meets the same plane, an edge being
     /// named by its own plane or by both of its facets. Equal points
@@ -116,8 +130,9 @@ public:
     /// vertex. Edges on planes of the fragment's own facet are found by their names.
     PointId vertex(const PolygonRef& ref, PlaneId support, PlaneId p, PlaneId q,
                    const Approximation& at);
-    /// Room for so many planes and points without growing on the way.
+    /// Room for so many planes and points without growing on the way, with their names or without.
     void reserve(std::size_t planes, std::size_t points);
+    void reserve_unnamed(std::size_t planes, std::size_t points);
     /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
     /// From now on several threads may call what is const. Nothing else may be called any more.
@@ -200,6 +215,12 @@ private:
 
     PlaneId add_plane(const PlaneName& name, PlaneId support = -1);
     const Plane& make_plane(PlaneId id) const;
+    [[nodiscard]] bool is_made(PlaneId id) const {
+        return std::atomic_ref(planes_[as_index(id)].place).load(std::memory_order_acquire) >= 0;
+    }
+    [[nodiscard]] std::optional<CornerPlane> by_corners(PlaneId id) const;
+    [[nodiscard]] std::optional<std::array<double, 3>> nearest_by_corners(
+        const PointRecord& point) const;
     [[nodiscard]] std::uint64_t line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w);
     [[nodiscard]] std::uint64_t line_item(PlaneId p);
     [[nodiscard]] Key128 point_key(PlaneId p, PlaneId q, PlaneId r);

@@ -16,6 +16,7 @@
 #include <iterator>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
@@ -23,6 +24,7 @@
 #include <trisect/bsp/assembly/parts/vertex_turn.h>
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 #include <trisect/bsp/cells/axis_polygon.h>
+#include <trisect/bsp/cells/facet_normal.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
@@ -235,9 +237,18 @@ public:
     /// Calls join(f, g) for the facets of every pair.
     template <class Join>
     void run(Join&& join) {
+        make_normals();
+        constexpr std::uint32_t ahead = 8;
         for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            // Both lie anywhere in memory.
+            if (e + 2 * ahead < edges_.size())
+                __builtin_prefetch(&table_[first_slot(ends_of(edges_[e + 2 * ahead]))]);
+            if (e + ahead < edges_.size()) {
+                const std::uint32_t at = table_[first_slot(ends_of(edges_[e + ahead]))];
+                if (at != none) __builtin_prefetch(&edges_[at]);
+            }
             const std::uint64_t ends = ends_of(edges_[e]);
-            std::size_t slot = mix64(ends) & (table_.size() - 1);
+            std::size_t slot = first_slot(ends);
             std::size_t others = 0;  // edges with the same ends that were met on the way
             for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1)) {
                 const std::uint32_t at = table_[slot];
@@ -264,6 +275,9 @@ public:
     [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge]; }
 
 private:
+    [[nodiscard]] std::size_t first_slot(std::uint64_t ends) const {
+        return mix64(ends) & (table_.size() - 1);
+    }
     [[nodiscard]] bool are_pair(const BoundaryEdge& e, const BoundaryEdge& f) const {
         return e.from == f.to && e.to == f.from && belong_together(e, f);
     }
@@ -274,9 +288,26 @@ private:
         // Where one's support cuts out the other's edge they cross.
         if (e.line.plane == b.support || f.line.plane == a.support) return false;
         if (!may_join(a, b, within_faces_)) return false;
+        if (a.support == b.support) return a.flipped == b.flipped;
+        if (are_surely_askew(normal_of(e.facet), normal_of(f.facet))) return false;
         const Plane& p = parts_.bench.plane_at(a.support);
         const Plane& q = parts_.bench.plane_at(b.support);
         return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
+    }
+
+    // Of a half-space: 0, which is askew to nothing.
+    [[nodiscard]] const FacetNormal& normal_of(std::int32_t facet) const {
+        return normals_[as_index(facet)];
+    }
+    void make_normals() {
+        normals_.resize(parts_.facets.size());
+        std::int32_t last = -1;
+        for (const BoundaryEdge& e : edges_) {
+            if (std::exchange(last, e.facet) == e.facet) continue;
+            const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
+            if (!f.source->is_half_space())
+                normals_[as_index(e.facet)] = FacetNormal(*f.source, f.facet);
+        }
     }
 
     // Facets that pass through as they are have no edges here.
@@ -323,6 +354,7 @@ private:
     const BoundaryParts& parts_;
     bool within_faces_;
     const std::vector<BoundaryEdge>& edges_;
+    std::vector<FacetNormal> normals_;  // by facet
     std::vector<std::uint32_t> table_;  // of edges by their ends, open addressing
     std::vector<bool> gone_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every vertex against every edge would be quadratic. Few candidates are sorted along one axis, and
-// an edge looks at those between its ends; many are in a grid, and for long edges in a tree of
-// boxes. Doubles with bounds leave those that may lie on the edge to the exact predicates: on both
-// planes of its line, and between its ends along an axis.
+// an edge looks at those between its ends; many are in a grid, and for long edges in columns along
+// an axis or in a tree of boxes. Doubles with bounds leave those that may lie on the edge to the
+// exact predicates: on both planes of its line, and between its ends along an axis.
 
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 
@@ -90,18 +90,19 @@ bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, Plane
 }  // namespace
 
 void EdgeSplitter::clear() {
-    for (const Candidate& c : candidates_) rank_[as_index(c.point)] = -1;
+    for (const Candidate& c : candidates_) is_listed_[as_index(c.point)] = false;
     candidates_.clear();
     are_many_ = false;
+    for (VertexColumns& c : columns_) c.clear();
     boxes_.clear();
     known_.clear();
     known_edges_.clear();
 }
 
 void EdgeSplitter::add_candidate(PointId p) {
-    if (rank_.size() <= as_index(p)) rank_.resize(bench_.point_count(), -1);
-    if (rank_[as_index(p)] >= 0) return;
-    rank_[as_index(p)] = 0;
+    if (is_listed_.size() <= as_index(p)) is_listed_.resize(bench_.point_count(), false);
+    if (is_listed_[as_index(p)]) return;
+    is_listed_[as_index(p)] = true;
     candidates_.push_back({bench_.approximation(p).c, p});
 }
 
@@ -130,6 +131,9 @@ void EdgeSplitter::sort_candidates(std::span<const BoundaryEdge> edges) {
     lo.fill(HUGE_VAL);
     hi.fill(-HUGE_VAL);
     widest_ = 0;
+    for (const BoundaryEdge& e : edges)
+        widest_ = std::max(
+            {widest_, bench_.approximation(e.from).error, bench_.approximation(e.to).error});
     constexpr std::size_t few = 128;
     for (const Candidate& c : candidates_) {
         widest_ = std::max(widest_, bench_.approximation(c.point).error);
@@ -147,8 +151,6 @@ void EdgeSplitter::sort_candidates(std::span<const BoundaryEdge> edges) {
     std::sort(candidates_.begin(), candidates_.end(), [axis](const auto& a, const auto& b) {
         return a.c[axis] != b.c[axis] ? a.c[axis] < b.c[axis] : a.point < b.point;
     });
-    for (std::size_t i = 0; i < candidates_.size(); ++i)
-        rank_[as_index(candidates_[i].point)] = static_cast<std::int32_t>(i);
 }
 
 // Points of all edges that have looked stay in a row, those of the last one behind.
@@ -186,24 +188,34 @@ void EdgeSplitter::look_at(const BoundaryEdge& e, const Candidate& candidate) {
         inside_.push_back(candidate.point);
 }
 
-// What is between the ends along axis_ comes between them; what is farther out by no more than the
-// errors allow comes right before or after.
+// What is between the ends along axis_, and farther out by no more than the errors allow.
 void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e) {
-    const Candidate* const first = candidates_.data();
-    const Candidate* const end = first + candidates_.size();
-    const Candidate* const from = first + rank_[as_index(e.from)];
-    const Candidate* const to = first + rank_[as_index(e.to)];
-    const Candidate* low = std::min(from, to);
-    const Candidate* high = std::max(from, to) + 1;
+    const std::array<double, 3>& from = bench_.approximation(e.from).c;
+    const std::array<double, 3>& to = bench_.approximation(e.to).c;
     const double reach = error_slack * (3 * widest_);
-    const double low_at = low->c[axis_] - reach;
-    const double high_at = high[-1].c[axis_] + reach;
-    while (low != first && low[-1].c[axis_] >= low_at) --low;
-    while (high != end && high->c[axis_] <= high_at) ++high;
-    if (high - low == 2) return;  // the ends
-    const EdgeFilter filter(from->c, to->c, 3 * widest_);
-    for (const Candidate* it = low; it != high; ++it)
-        if (it != from && it != to && filter.may_contain(it->c)) look_at(e, *it);
+    const auto [low, high] = std::minmax(from[axis_], to[axis_]);
+    const double end = high + reach;
+    auto it = std::ranges::lower_bound(candidates_, low - reach, {},
+                                       [&](const Candidate& c) { return c.c[axis_]; });
+    if (it == candidates_.end() || it->c[axis_] > end) return;
+    const EdgeFilter filter(from, to, 3 * widest_);
+    for (; it != candidates_.end() && it->c[axis_] <= end; ++it)
+        if (it->point != e.from && it->point != e.to && filter.may_contain(it->c)) look_at(e, *it);
+}
+
+// Of an edge along an axis: there its ends have the same place across it, as far as doubles know.
+VertexColumns* EdgeSplitter::columns_of(const BoundaryEdge& e) {
+    const std::array<double, 3>& from = bench_.approximation(e.from).c;
+    const std::array<double, 3>& to = bench_.approximation(e.to).c;
+    const std::size_t axis = longest_axis(from, to);
+    double farthest = 0;
+    for (const std::size_t k : {(axis + 1) % 3, (axis + 2) % 3})
+        farthest = std::max(farthest, std::fabs(from[k] - to[k]));
+    if (farthest > 3 * widest_) return nullptr;
+    VertexColumns& columns = columns_[axis];
+    // Some dozens of times wider than what is looked for, so that this is mostly in one column.
+    if (columns.is_empty()) columns.build(candidates_, axis, widest_ > 0 ? 256 * widest_ : 1);
+    return &columns;
 }
 
 void EdgeSplitter::find_inside_near(const BoundaryEdge& e) {
@@ -215,6 +227,9 @@ void EdgeSplitter::find_inside_near(const BoundaryEdge& e) {
             if (filter.may_contain(c.c) && c.point != e.from && c.point != e.to) look_at(e, c);
     };
     if (grid_.for_each_near(filter.low(), filter.high(), look_at_all)) return;
+    if (const VertexColumns* columns = columns_of(e);
+        columns != nullptr && columns->for_each_near(filter.low(), filter.high(), look_at_all))
+        return;
     if (boxes_.is_empty()) boxes_.build(candidates_);
     boxes_.for_each_near(from, to, error_slack * (3 * widest_), look_at_all);
 }
@@ -227,6 +242,10 @@ void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis, std::span<PointI
 }
 
 void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out) {
+    if (candidates_.empty()) {
+        out.insert(out.end(), edges.begin(), edges.end());
+        return;
+    }
     sort_candidates(edges);
     inside_.clear();
     for (const BoundaryEdge& e : edges) {

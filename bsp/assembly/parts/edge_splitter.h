@@ -3,6 +3,7 @@
 // EdgeSplitter: insertion of vertices that lie inside edges (T-vertices).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,7 @@
 
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
+#include <trisect/bsp/assembly/parts/vertex_columns.h>
 #include <trisect/bsp/assembly/parts/vertex_grid.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/kernel/support/flat_map.h>
@@ -19,16 +21,16 @@ namespace trisect::detail {
 /// Splits edges at the candidate vertices that lie inside them. Holds scratch memory.
 ///
 /// An edge looks at few candidates that are not near it: where they are many, some cubes of a grid,
-/// or, if it is long, O(log n) boxes of a tree over them; else those whose range along the longest
-/// axis meets its own. Of many, edges with the same ends look once: mostly two facets have one.
+/// or, if it is long, a column along an axis, or O(log n) boxes of a tree over them; else those
+/// whose range along the longest axis meets its own. Of many, edges with the same ends look once:
+/// mostly two facets have one.
 class EdgeSplitter {
 public:
     EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
         : bench_(bench), facets_(facets) {}
     void clear();
     void add_candidate(PointId p);
-    /// Appends the parts of the edges to `out`, each edge's parts in order. \pre the ends of the
-    /// edges are candidates.
+    /// Appends the parts of the edges to `out`, each edge's parts in order.
     void split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out);
 
 private:
@@ -44,6 +46,7 @@ private:
     void find_inside(const BoundaryEdge& e);
     void find_inside_sorted(const BoundaryEdge& e);
     void find_inside_near(const BoundaryEdge& e);
+    [[nodiscard]] VertexColumns* columns_of(const BoundaryEdge& e);
     void look_at(const BoundaryEdge& e, const Candidate& candidate);
     void sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const;
 
@@ -51,13 +54,14 @@ private:
     const std::vector<BoundaryFacet>& facets_;
     std::vector<Candidate> candidates_;
     bool are_many_ = false;
-    VertexGrid grid_;                 // of many candidates
-    VertexBoxes boxes_;               // of these, once an edge is long
-    std::vector<std::int32_t> rank_;  // by point: its place among the candidates, -1 is none
-    std::size_t axis_ = 0;            // that they are sorted along
-    double widest_ = 0;               // error of a candidate
-    std::vector<PointId> inside_;     // of the edges that have looked, each along its edge
-    std::vector<Inside> known_;       // of many candidates, by the numbers of known_edges_
+    VertexGrid grid_;                       // of many candidates
+    std::array<VertexColumns, 3> columns_;  // of these, once an edge is long and along an axis
+    VertexBoxes boxes_;                     // once an edge is long
+    std::vector<bool> is_listed_;           // by point: among the candidates
+    std::size_t axis_ = 0;                  // that they are sorted along
+    double widest_ = 0;                     // error of a candidate or an end
+    std::vector<PointId> inside_;           // of the edges that have looked, each along its edge
+    std::vector<Inside> known_;             // of many candidates, by the numbers of known_edges_
     FlatMap known_edges_;
 };
 

@@ -127,11 +127,10 @@ void FaceLoops::order_loops() {
 
 void FaceLoops::set_region(PlaneId support, bool flipped, std::span<const BoundaryEdge> edges) {
     edges_ = edges;
-    const Plane& p = bench_.plane_at(support);
-    const int k = p.dominant_axis();
+    const auto [k, is_up] = bench_.facing(support);
     u_ = k == 2 ? 0 : k + 1;
     v_ = k == 0 ? 2 : k - 1;
-    right_handed_ = (p.normal(k) > 0) != flipped;
+    right_handed_ = is_up != flipped;
     points_.clear();
     edge_at_.clear();
     loops_.clear();

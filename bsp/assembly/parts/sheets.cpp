@@ -23,6 +23,7 @@
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 #include <trisect/bsp/assembly/parts/facet_boxes.h>
+#include <trisect/bsp/cells/facet_normal.h>
 #include <trisect/bsp/cells/near_points.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
@@ -149,11 +150,23 @@ void Sheets::list_edges() {
 }
 
 // The same for planes that are the same, but for rounding; mostly another one for others.
+// Normals from corners are taken where they have about as many digits as those of planes.
 double Sheets::plane_number(const Outline& o, double extent) const {
-    const Plane& p = bench_.plane_at(facet(o).support);
-    const Vector3 n{p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)};
     constexpr Vector3 any{0.6180339887, 0.7320508076, 0.4142135624};
-    return std::fabs(dot(any, n) + 0.2360679775 * p.approx_offset() / extent) / length(n);
+    const auto number = [&](const Vector3& n, double offset) {
+        return std::fabs(dot(any, n) + 0.2360679775 * offset / extent) / length(n);
+    };
+    const BoundaryFacet& f = facet(o);
+    if (!f.source->is_half_space()) {
+        const FacetNormal normal(*f.source, f.facet);
+        const Vector3 corner = f.source->corner(f.facet, 0).doubles();
+        const double longest = largest_component(normal.n);
+        const double off = 3 * (largest_component(normal.error) + 0x1p-50 * longest);
+        if (off * std::max(extent, largest_component(corner)) <= 0x1p-44 * longest * extent)
+            return number(normal.n, -dot(normal.n, corner));
+    }
+    const Plane& p = bench_.plane_at(f.support);
+    return number({p.approx_normal(0), p.approx_normal(1), p.approx_normal(2)}, p.approx_offset());
 }
 
 // Facets by their planes.
@@ -169,6 +182,10 @@ void Sheets::find_pairs() {
     constexpr double rounding = 1e-12;
     std::vector<OfPlane> planes;
     for (std::size_t i = 0; i < order.size();) {
+        if (i + 1 == order.size() || order[i + 1].first - order[i].first > rounding) {
+            ++i;  // alone
+            continue;
+        }
         planes.clear();
         do add_to_plane(planes, order[i].second);
         while (++i < order.size() && order[i].first - order[i - 1].first <= rounding);
@@ -269,12 +286,9 @@ void Sheets::merge_crossings(std::size_t first) {
     });
 }
 
+// Nothing else lies inside an edge.
 void Sheets::split_edges() {
     EdgeSplitter splitter(bench_, parts_.facets);
-    for (const BoundaryEdge& e : edges_) {
-        splitter.add_candidate(e.from);
-        splitter.add_candidate(e.to);
-    }
     for (const PointId p : crossings_) splitter.add_candidate(representatives_[as_index(p)]);
     std::vector<BoundaryEdge> out;
     splitter.split(edges_, out);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Vertices and facets have their numbers already, one for each, so nothing is looked up by name;
+// corners are, where facets in special position that are whole share them.
 
 #include <trisect/bsp/assembly/traced/outlined_edges.h>
 
 #include <algorithm>
 #include <utility>
 
+#include <trisect/bsp/assembly/traced/operand_table.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -18,16 +22,20 @@ public:
                   std::span<const Source* const> sources, BoundaryParts& parts)
         : outlined_(outlined),
           operands_(operands),
+          operand_of_(operands.operands),
           sources_(sources),
           parts_(parts),
           points_(outlined.vertices.size(), -1),
-          planes_(operands.operands.back().first + sources.back()->facet_count(), -1) {}
+          planes_(operands.operands.back().first + sources.back()->facet_count(), -1),
+          corners_(operands.special.empty() ? 0 : sources.size()) {
+        parts.bench.reserve_unnamed(4 * parts.facets.size(), outlined.vertices.size());
+    }
 
     void add(const OutlinedFacets::Facet& facet, std::size_t slot, std::vector<BoundaryEdge>& out) {
         const Crossings::Operand& o = operands_.operands[slot];
-        FacetMarks& marks = parts_.sources[parts_.table_of(sources_[slot])];
+        FacetMarks& marks = marks_of(slot);
         const std::int32_t worked = marks.number_of_worked(facet.number - o.first, o.inside_above);
-        const PlaneId own = first_edge_of(facet.number);
+        const PlaneId own = first_edge_of(facet.number, slot);
         BoundaryFacet& f = parts_.facets[as_index(worked)];
         f.support = parts_.bench.support_of(own);
         f.is_special = std::ranges::binary_search(operands_.special, facet.number);
@@ -46,7 +54,7 @@ public:
 
     // A facet in special position of which all is in the result.
     void add_whole(std::uint32_t number, std::vector<BoundaryEdge>& out) {
-        const std::size_t slot = operands_.operand_of(number);
+        const std::size_t slot = operand_of_(number);
         const Crossings::Operand& o = operands_.operands[slot];
         const std::size_t table = parts_.table_of(sources_[slot]);
         if (table >= parts_.sources.size()) return;  // nothing is left of it
@@ -54,16 +62,15 @@ public:
         const std::uint32_t facet = number - o.first;
         if (!marks.takes_part(facet, o.inside_above)) return;
         const std::int32_t worked = marks.number_of_worked(facet, o.inside_above);
-        const PlaneId own = first_edge_of(number);
+        const PlaneId own = first_edge_of(number, slot);
         BoundaryFacet& f = parts_.facets[as_index(worked)];
         f.support = parts_.bench.support_of(own);
         f.is_special = true;
         f.parts = 2;
-        const PolygonRef r = ref(number);
         for (int k = 0; k < 3; ++k) {
             const int i = o.inside_above ? 2 - k : k;
-            PointId from = parts_.bench.corner(r.source, r.facet, i);
-            PointId to = parts_.bench.corner(r.source, r.facet, (i + 1) % 3);
+            PointId from = corner(slot, facet, i);
+            PointId to = corner(slot, facet, (i + 1) % 3);
             if (o.inside_above) std::swap(from, to);
             out.push_back({from, to, worked, {own + i, false}});
         }
@@ -77,19 +84,24 @@ private:
         return {support_of(e.cutter), !e.open_below};
     }
 
-    [[nodiscard]] PolygonRef ref(std::uint32_t number) const {
-        const std::size_t slot = operands_.operand_of(number);
-        return {sources_[slot], nullptr, number - operands_.operands[slot].first, false, false};
+    FacetMarks& marks_of(std::size_t slot) {
+        if (slot != marked_slot_ || marks_ == nullptr) {
+            marks_ = &parts_.sources[parts_.table_of(sources_[slot])];
+            marked_slot_ = slot;
+        }
+        return *marks_;
     }
 
-    // The plane of the first edge; those of the others follow it.
-    PlaneId first_edge_of(std::uint32_t number) {
+    // The plane of the first edge; those of the others follow it, and the support.
+    PlaneId first_edge_of(std::uint32_t number, std::size_t slot) {
         PlaneId& known = planes_[number];
-        if (known < 0) {
-            const PolygonRef r = ref(number);
-            known = parts_.bench.plane(PlaneName::edge(r.source, r.facet, 0));
-        }
+        if (known < 0)
+            known = parts_.bench.add_facet(sources_[slot], number - operands_.operands[slot].first);
         return known;
+    }
+    PlaneId first_edge_of(std::uint32_t number) {
+        const PlaneId known = planes_[number];
+        return known >= 0 ? known : first_edge_of(number, operand_of_(number));
     }
     PlaneId support_of(std::uint32_t number) {
         return parts_.bench.support_of(first_edge_of(number));
@@ -101,27 +113,42 @@ private:
         return known;
     }
     PointId make_point(const OutlineVertex& v) {
-        const PolygonRef r = ref(v.facets[0]);
         switch (v.kind) {
-            case OutlineVertex::Kind::Corner:
-                return parts_.bench.corner(r.source, r.facet, v.which);
-            case OutlineVertex::Kind::Pierce:
-                return parts_.bench.vertex(r, support_of(v.facets[0]),
-                                           first_edge_of(v.facets[0]) + v.which,
-                                           support_of(v.facets[1]), v.at);
+            case OutlineVertex::Kind::Corner: {
+                const std::size_t slot = operand_of_(v.facets[0]);
+                return corner(slot, v.facets[0] - operands_.operands[slot].first, v.which);
+            }
+            case OutlineVertex::Kind::Pierce: {
+                const PlaneId own = first_edge_of(v.facets[0]);
+                return parts_.bench.add_point(parts_.bench.support_of(own), own + v.which,
+                                              support_of(v.facets[1]), v.at);
+            }
             case OutlineVertex::Kind::Meeting:
                 break;
         }
-        return parts_.bench.vertex(r, support_of(v.facets[0]), support_of(v.facets[1]),
-                                   support_of(v.facets[2]), v.at);
+        return parts_.bench.add_point(support_of(v.facets[0]), support_of(v.facets[1]),
+                                      support_of(v.facets[2]), v.at);
+    }
+    PointId corner(std::size_t slot, std::uint32_t facet, int i) {
+        const Source& source = *sources_[slot];
+        const std::uint32_t vertex = source.corner_index(facet, i);
+        if (corners_.empty()) return parts_.bench.add_corner(&source, vertex);
+        if (corners_[slot].empty()) corners_[slot].resize(source.mesh().points.size(), -1);
+        PointId& known = corners_[slot][vertex];
+        if (known < 0) known = parts_.bench.add_corner(&source, vertex);
+        return known;
     }
 
     const OutlinedFacets& outlined_;
     const Crossings& operands_;
+    const OperandTable operand_of_;
     std::span<const Source* const> sources_;
     BoundaryParts& parts_;
-    std::vector<PointId> points_;  // by vertex, where they were asked for
-    std::vector<PlaneId> planes_;  // by facet, likewise
+    std::vector<PointId> points_;                // by vertex, where they were asked for
+    std::vector<PlaneId> planes_;                // by facet, likewise
+    std::vector<std::vector<PointId>> corners_;  // by slot and vertex, where facets may share them
+    FacetMarks* marks_ = nullptr;                // of the last slot
+    std::size_t marked_slot_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// VertexColumns: vertices by lines along an axis, to find those on long edges along it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/assembly/parts/vertex_boxes.h>
+#include <trisect/kernel/support/flat_map.h>
+
+namespace trisect::detail {
+
+/// A grid of narrow columns along an axis; those that have vertices are in a hash table. Most long
+/// edges of machine-made solids go along an axis, and a column has few vertices, where a tree has
+/// many boxes that such an edge runs through.
+class VertexColumns {
+public:
+    using Vertex = VertexBoxes::Vertex;
+
+    /// `width` is about what vertices on one line are apart across it. Copies the vertices. O(n),
+    /// and O(m log m) for each column of m
+    void build(std::span<const Vertex> vertices, std::size_t axis, double width);
+    void clear() { columns_.clear(); }
+    [[nodiscard]] bool is_empty() const { return columns_.empty(); }
+
+    /// Calls `look_at` with spans that have all vertices of a box, and few others. False where it
+    /// meets more than four columns; then nothing is called.
+    template <class LookAt>
+    [[nodiscard]] bool for_each_near(const std::array<double, 3>& lo,
+                                     const std::array<double, 3>& hi, const LookAt& look_at) const {
+        const Place first = place_of(lo);
+        const Place last = place_of(hi);
+        if (last[0] - first[0] > 1 || last[1] - first[1] > 1) return false;
+        const auto along = [&](const Vertex& v) { return v.c[axis_]; };
+        for (std::int64_t x = first[0]; x <= last[0]; ++x)
+            for (std::int64_t y = first[1]; y <= last[1]; ++y) {
+                const Column& column = columns_[slot_of(key_of({x, y}))];
+                if (column.count == 0) continue;
+                const auto all = std::span(vertices_).subspan(column.first, column.count);
+                const auto begin = std::ranges::lower_bound(all, lo[axis_], {}, along);
+                const auto end = std::ranges::upper_bound(all, hi[axis_], {}, along);
+                look_at(all.subspan(static_cast<std::size_t>(begin - all.begin()),
+                                    static_cast<std::size_t>(end - begin)));
+            }
+        return true;
+    }
+
+private:
+    using Place = std::array<std::int64_t, 2>;
+    struct Column {
+        std::uint64_t key = 0;
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;  // 0: none
+    };
+    // Rounded steps keep the order of coordinates, so a box has all columns of its points. What is
+    // far beyond all vertices is in the columns at the end.
+    [[nodiscard]] Place place_of(const std::array<double, 3>& c) const {
+        constexpr double most = 0x1p50;
+        const auto number = [&](std::size_t k) {
+            return static_cast<std::int64_t>(
+                std::fmin(std::fmax((c[k] - origin_[k]) * per_unit_, -most), most));
+        };
+        return {number((axis_ + 1) % 3), number((axis_ + 2) % 3)};
+    }
+    // Columns of equal keys count as one.
+    [[nodiscard]] static std::uint64_t key_of(const Place& p) {
+        return mix64(static_cast<std::uint64_t>(p[0])) + static_cast<std::uint64_t>(p[1]);
+    }
+    // Of the column with that key, or where it would be.
+    [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
+        std::size_t at = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15U >> shift_);
+        while (columns_[at].count != 0 && columns_[at].key != key)
+            at = (at + 1) & (columns_.size() - 1);
+        return at;
+    }
+
+    std::size_t axis_ = 0;
+    std::vector<Vertex> vertices_;  // column after column, each along the axis
+    std::vector<Column> columns_;   // a power of two of them, at most half full
+    int shift_ = 0;
+    std::array<double, 3> origin_{};
+    double per_unit_ = 0;  // columns
+};
+
+// \pre there are any
+inline void VertexColumns::build(std::span<const Vertex> vertices, std::size_t axis, double width) {
+    axis_ = axis;
+    origin_ = vertices[0].c;
+    per_unit_ = 1 / width;
+    const std::size_t places = std::bit_ceil(2 * vertices.size());
+    shift_ = 64 - std::countr_zero(places);
+    columns_.assign(places, {});
+    std::vector<std::uint32_t> slots;
+    slots.reserve(vertices.size());
+    for (const Vertex& v : vertices) {
+        const std::uint64_t key = key_of(place_of(v.c));
+        Column& column = columns_[slot_of(key)];
+        column.key = key;
+        ++column.count;
+        slots.push_back(static_cast<std::uint32_t>(&column - columns_.data()));
+    }
+    std::uint32_t first = 0;
+    for (Column& column : columns_) {
+        column.first = first;
+        first += column.count;
+    }
+    vertices_.resize(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        vertices_[columns_[slots[i]].first++] = vertices[i];
+    for (Column& column : columns_) {
+        column.first -= column.count;
+        if (column.count < 2) continue;
+        const auto all = std::span(vertices_).subspan(column.first, column.count);
+        std::sort(all.begin(), all.end(),
+                  [axis](const Vertex& a, const Vertex& b) { return a.c[axis] < b.c[axis]; });
+    }
+}
+
+}  // namespace trisect::detail
