@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <trisect/bsp/cells/facet_normal.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/triangle_normal.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -17,6 +17,7 @@ namespace trisect::detail {
 void Workbench::clear() {
     planes_.clear();
     made_.clear();
+    recent_.clear();
     points_.clear();
     plane_ids_.clear();
     corner_ids_.clear();
@@ -249,9 +250,18 @@ PointId Workbench::add_point(PlaneId p, PlaneId q, PlaneId r, const Approximatio
 HomogeneousPoint Workbench::homogeneous(PointId id) const {
     const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) return trisect::homogeneous(r.lattice());
-    const auto h = intersect(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
-    TRISECT_EXPECTS(h.has_value(), "a point of planes that do not meet in one");
-    return *h;
+    const auto compute = [&] {
+        const auto h =
+            intersect(plane_at(r.planes[0]), plane_at(r.planes[1]), plane_at(r.planes[2]));
+        TRISECT_EXPECTS(h.has_value(), "a point of planes that do not meet in one");
+        return *h;
+    };
+    if (adding_ != nullptr) return compute();
+    constexpr std::size_t kept = 64;
+    recent_.resize(kept);
+    ExactPoint& known = recent_[as_index(id) % kept];
+    if (known.point != id) known = {id, compute()};
+    return known.at;
 }
 
 Point Workbench::point(PointId id) const {
@@ -268,11 +278,20 @@ std::array<double, 3> Workbench::nearest(PointId id) const {
                            plane_at(r.planes[2]));
 }
 
+namespace {
+
+TriangleNormal triangle_normal(const Source& source, std::uint32_t facet) {
+    return {source.corner(facet, 0).doubles(), source.corner(facet, 1).doubles(),
+            source.corner(facet, 2).doubles()};
+}
+
+}  // namespace
+
 // Mostly doubles decide, and then the plane is not made.
 Workbench::Facing Workbench::facing(PlaneId support) const {
     const PlaneName& n = name(support);
     if (!is_made(support) && !n.is_splitter() && !n.source()->is_half_space()) {
-        const FacetNormal normal(*n.source(), n.facet);
+        const TriangleNormal normal = triangle_normal(*n.source(), n.facet);
         const std::size_t k = normal.longest_axis();
         const double least = std::fabs(normal.n[k]) - normal.error[k];
         const auto is_shorter = [&](std::size_t i) {
@@ -295,7 +314,7 @@ std::optional<CornerPlane> Workbench::by_corners(PlaneId id) const {
         return &source->corner(n.facet, static_cast<int>(i % 3));
     };
     if (!n.is_edge()) return CornerPlane{{corner(0), corner(1), corner(2)}, -1};
-    const auto axis = static_cast<int>(FacetNormal(*source, n.facet).longest_axis());
+    const auto axis = static_cast<int>(triangle_normal(*source, n.facet).longest_axis());
     return CornerPlane{{corner(n.kind), corner(n.kind + 1), nullptr}, axis};
 }
 
@@ -363,6 +382,10 @@ int Workbench::unfiltered_side(PointId point, PlaneId plane) const {
         }
     }
     if (r.is_lattice) return sign_of(side_of(r.lattice(), p));
+    if (adding_ == nullptr && !recent_.empty()) {
+        const ExactPoint& known = recent_[as_index(point) % recent_.size()];
+        if (known.point == point) return sign_of(side_of(known.at, p));
+    }
     return sign_of(side_of(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]), p));
 }

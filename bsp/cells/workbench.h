@@ -103,6 +103,7 @@ public:
     [[nodiscard]] const Approximation& approximation(PointId id) const {
         return points_[as_index(id)].approximation;
     }
+    /// Those of the last points are kept until the bench is shared.
     [[nodiscard]] HomogeneousPoint homogeneous(PointId id) const;
     [[nodiscard]] Point point(PointId id) const;
     /// Correctly rounded coordinates in lattice units.
@@ -213,6 +214,12 @@ private:
         std::int32_t count_ = 0;
     };
 
+    // Exact coordinates of a point that planes name.
+    struct ExactPoint {
+        PointId point = -1;
+        HomogeneousPoint at;
+    };
+
     PlaneId add_plane(const PlaneName& name, PlaneId support = -1);
     const Plane& make_plane(PlaneId id) const;
     [[nodiscard]] bool is_made(PlaneId id) const {
@@ -235,7 +242,8 @@ private:
 
     std::vector<PlaneRecord, PoolAllocator<PlaneRecord>> planes_;
     mutable MadePlanes made_;
-    std::unique_ptr<std::mutex> adding_;  // to these, where the bench is shared
+    std::unique_ptr<std::mutex> adding_;      // to these, where the bench is shared
+    mutable std::vector<ExactPoint> recent_;  // by the last bits of the point
     std::vector<PointRecord, PoolAllocator<PointRecord>> points_;
     FlatMap plane_ids_;
     FlatMap corner_ids_;

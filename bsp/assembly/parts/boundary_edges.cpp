@@ -24,8 +24,8 @@
 #include <trisect/bsp/assembly/parts/vertex_turn.h>
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 #include <trisect/bsp/cells/axis_polygon.h>
-#include <trisect/bsp/cells/facet_normal.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/triangle_normal.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -296,7 +296,7 @@ private:
     }
 
     // Of a half-space: 0, which is askew to nothing.
-    [[nodiscard]] const FacetNormal& normal_of(std::int32_t facet) const {
+    [[nodiscard]] const TriangleNormal& normal_of(std::int32_t facet) const {
         return normals_[as_index(facet)];
     }
     void make_normals() {
@@ -306,7 +306,9 @@ private:
             if (std::exchange(last, e.facet) == e.facet) continue;
             const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
             if (!f.source->is_half_space())
-                normals_[as_index(e.facet)] = FacetNormal(*f.source, f.facet);
+                normals_[as_index(e.facet)] = {f.source->corner(f.facet, 0).doubles(),
+                                               f.source->corner(f.facet, 1).doubles(),
+                                               f.source->corner(f.facet, 2).doubles()};
         }
     }
 
@@ -354,8 +356,8 @@ private:
     const BoundaryParts& parts_;
     bool within_faces_;
     const std::vector<BoundaryEdge>& edges_;
-    std::vector<FacetNormal> normals_;  // by facet
-    std::vector<std::uint32_t> table_;  // of edges by their ends, open addressing
+    std::vector<TriangleNormal> normals_;  // by facet
+    std::vector<std::uint32_t> table_;     // of edges by their ends, open addressing
     std::vector<bool> gone_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<std::uint64_t> crowded_;  // ends of more than two edges

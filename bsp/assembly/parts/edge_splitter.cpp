@@ -78,10 +78,10 @@ int separating_axis(const Workbench& bench, PointId from, PointId to) {
     return (axis + 2) % 3;
 }
 
-// Does p lie strictly inside the edge? All three points are distinct; `along` separates the ends.
-bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, PlaneId support,
-                 int along) {
+// Does p lie strictly inside the edge? All three points are distinct.
+bool lies_inside(const Workbench& bench, PointId p, const BoundaryEdge& e, PlaneId support) {
     if (bench.side(p, support) != 0 || bench.side(p, e.line.plane) != 0) return false;
+    const int along = separating_axis(bench, e.from, e.to);
     const int from = compare_along(bench, e.from, p, along);
     const int to = compare_along(bench, p, e.to, along);
     return from == to && from != 0;
@@ -183,8 +183,7 @@ void EdgeSplitter::find_inside(const BoundaryEdge& e) {
 }
 
 void EdgeSplitter::look_at(const BoundaryEdge& e, const Candidate& candidate) {
-    const int axis = separating_axis(bench_, e.from, e.to);
-    if (lies_inside(bench_, candidate.point, e, facets_[as_index(e.facet)].support, axis))
+    if (lies_inside(bench_, candidate.point, e, facets_[as_index(e.facet)].support))
         inside_.push_back(candidate.point);
 }
 

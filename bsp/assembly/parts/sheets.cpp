@@ -23,8 +23,8 @@
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 #include <trisect/bsp/assembly/parts/facet_boxes.h>
-#include <trisect/bsp/cells/facet_normal.h>
 #include <trisect/bsp/cells/near_points.h>
+#include <trisect/kernel/number/triangle_normal.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
 
@@ -158,8 +158,9 @@ double Sheets::plane_number(const Outline& o, double extent) const {
     };
     const BoundaryFacet& f = facet(o);
     if (!f.source->is_half_space()) {
-        const FacetNormal normal(*f.source, f.facet);
         const Vector3 corner = f.source->corner(f.facet, 0).doubles();
+        const TriangleNormal normal(corner, f.source->corner(f.facet, 1).doubles(),
+                                    f.source->corner(f.facet, 2).doubles());
         const double longest = largest_component(normal.n);
         const double off = 3 * (largest_component(normal.error) + 0x1p-50 * longest);
         if (off * std::max(extent, largest_component(corner)) <= 0x1p-44 * longest * extent)

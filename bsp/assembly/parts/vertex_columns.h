@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// VertexColumns: vertices by lines along an axis, to find those on long edges along it.
+// VertexColumns: vertices by lines along an axis.
 #pragma once
 
 #include <algorithm>

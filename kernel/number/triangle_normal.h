@@ -1,29 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// FacetNormal: the normal of a facet in doubles.
+// TriangleNormal: the normal of a triangle in doubles.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 
-#include <trisect/bsp/cells/source.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
-/// To find what most facets are not, without making their planes. \pre no half-space
-struct FacetNormal {
+/// To find what most triangles are not, without making their planes.
+struct TriangleNormal {
     Vector3 n{};
     Vector3 error{};
 
-    FacetNormal() = default;
-    FacetNormal(const Source& source, std::uint32_t facet) {
-        const Vector3 a = source.corner(facet, 0).doubles();
-        const Vector3 v = minus(source.corner(facet, 1).doubles(), a);
-        const Vector3 w = minus(source.corner(facet, 2).doubles(), a);
+    TriangleNormal() = default;
+    TriangleNormal(const Vector3& a, const Vector3& b, const Vector3& c) {
+        const Vector3 v = minus(b, a);
+        const Vector3 w = minus(c, a);
         for (std::size_t k = 0; k < 3; ++k) {
             const double s = v[(k + 1) % 3] * w[(k + 2) % 3];
             const double t = v[(k + 2) % 3] * w[(k + 1) % 3];
@@ -41,7 +37,7 @@ struct FacetNormal {
 
 /// Whether the normals surely have different lines. With a = A + e and b = B + f a component of
 /// a × b is off by at most |A| |f| + |e| |B| + |e| |f| for each of its products, besides rounding.
-[[nodiscard]] inline bool are_surely_askew(const FacetNormal& a, const FacetNormal& b) {
+[[nodiscard]] inline bool are_surely_askew(const TriangleNormal& a, const TriangleNormal& b) {
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3;
         const std::size_t j = (k + 2) % 3;
