@@ -163,6 +163,45 @@ TEST(Laws, PointsFarAlongOneAxisAreRoundedByTheFilter) {
     }
 }
 
+// Through three corners, through two of them along an axis, on small grids and on large ones.
+TEST(Laws, PlanesByTheirCornersRoundPointsAsMadeOnesDo) {
+    oracle::Source random(31);
+    const std::array<int, 6> sizes{3, 10, 25, 40, 52, 53};
+    int met = 0;
+    int known = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const int bits = sizes[random.below(sizes.size())];
+        std::array<LatticePoint, 9> corners;
+        for (LatticePoint& c : corners) c = random.point(bits);
+        std::array<trisect::CornerPlane, 3> by_corners;
+        std::array<Plane, 3> planes;
+        bool flat = false;
+        for (std::size_t i = 0; i < 3 && !flat; ++i) {
+            const LatticePoint* const c = &corners[3 * i];
+            flat = are_collinear(c[0], c[1], c[2]);
+            if (flat) break;
+            by_corners[i] = {{c, c + 1, c + 2}, -1};
+            planes[i] = Plane::through(c[0], c[1], c[2]);
+            if (random.below(3) != 0) continue;
+            const auto axis = static_cast<int>(random.below(3));
+            flat = c[0][(axis + 1) % 3] == c[1][(axis + 1) % 3] &&
+                   c[0][(axis + 2) % 3] == c[1][(axis + 2) % 3];
+            if (flat) break;
+            by_corners[i].axis = axis;
+            planes[i] = Plane::along_axis(c[0], c[1], axis);
+        }
+        if (flat || !meet_in_a_point(planes[0], planes[1], planes[2])) continue;
+        const Approximation a = approximate(planes[0], planes[1], planes[2]);
+        const auto nearest = nearest_doubles(a, by_corners);
+        ++met;
+        if (!nearest) continue;
+        ++known;
+        EXPECT_EQ(*nearest, nearest_doubles(a, planes[0], planes[1], planes[2]));
+    }
+    EXPECT_GT(met, 15000);
+    EXPECT_GT(known, met / 2);
+}
+
 // ---------------------------------------------------------------- coverage of the stages
 
 PredicateCounters counted(const auto& predicate) {
