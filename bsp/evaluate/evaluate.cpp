@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -11,6 +12,7 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/evaluate/flat_formula.h>
+#include <trisect/bsp/evaluate/named_slots.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
@@ -84,6 +86,12 @@ public:
                 return state;
         return nullptr;
     }
+    /// Likewise.
+    [[nodiscard]] std::shared_ptr<SolidState> by_many_meshes() {
+        const detail::Rule& rule = detail::formula_rules().back();
+        return detail::evaluate_by(std::get<detail::FormulaRule>(rule.how), formula_, states_,
+                                   settings_, made_);
+    }
     [[nodiscard]] std::shared_ptr<SolidState> by_tree() {
         return detail::evaluate_tree(formula_, states_, settings_, made_);
     }
@@ -114,6 +122,17 @@ private:
     detail::EvaluateStats made_;
 };
 
+// Where an operand is named more than once: pair by pair, with copies of it. They coincide all
+// over, which costs more in cells.
+std::optional<Solid> of_copies(const detail::Translation& t, const EvaluateOptions& options,
+                               EvaluateReport* report) {
+    const auto copies = detail::with_copies(t);
+    if (!copies) return std::nullopt;
+    Operands operands(*copies, options);
+    if (auto state = operands.by_many_meshes()) return operands.finish(std::move(state), report);
+    return std::nullopt;
+}
+
 }  // namespace
 
 EvaluateCounters& EvaluateCounters::operator+=(const EvaluateCounters& o) {
@@ -128,20 +147,23 @@ EvaluateCounters& EvaluateCounters::operator-=(const EvaluateCounters& o) {
 
 Solid evaluate(const Expression& expression, const EvaluateOptions& options,
                EvaluateReport* report) {
-    const detail::Translation t = detail::translate_without_constants(expression);
+    const detail::Translation t =
+        detail::with_named_slots(detail::translate_without_constants(expression));
     if (auto flat = detail::evaluate_flat(t, options)) {
         if (report != nullptr) *report = {};
         if (report != nullptr) report->lattice.lattice = flat->lattice;
         return detail::solid_of(std::move(flat));
     }
     if (const auto prisms = detail::over_prisms(t)) {
-        Operands operands(*prisms, options);
+        const auto named = detail::with_named_slots(*prisms);
+        Operands operands(named, options);
         if (auto state = operands.without_tree()) return operands.finish(std::move(state), report);
+        if (auto solid = of_copies(named, options, report)) return *std::move(solid);
     }
     Operands operands(t, options);
-    auto state = operands.without_tree();
-    if (state == nullptr) state = operands.by_tree();
-    return operands.finish(std::move(state), report);
+    if (auto state = operands.without_tree()) return operands.finish(std::move(state), report);
+    if (auto solid = of_copies(t, options, report)) return *std::move(solid);
+    return operands.finish(operands.by_tree(), report);
 }
 
 }  // namespace trisect
