@@ -425,19 +425,19 @@ reference::Expression flat_formula(reference::Random& random, std::size_t n) {
     return Expression::node(kind == 0 ? Kind::Union : Kind::Intersection, terms);
 }
 
-// Unions, intersections and differences of each other.
-reference::Expression nested_formula(reference::Random& random, std::size_t first,
-                                     std::size_t end) {
+// Unions, intersections and differences of each other. Leaves beyond the operands name these again.
+reference::Expression nested_formula(reference::Random& random, std::size_t first, std::size_t end,
+                                     std::size_t operands) {
     using reference::Expression;
     if (first + 1 == end) {
-        Expression leaf = Expression::leaf(first);
+        Expression leaf = Expression::leaf(first % operands);
         return random.chance(1, 6) ? Expression::node(Kind::Complement, {leaf}) : leaf;
     }
     const std::size_t middle = first + 1 + random.below(end - first - 1);
     constexpr std::array kinds{Kind::Union, Kind::Intersection, Kind::Difference};
     const Kind kind = kinds[random.below(3)];
-    Expression left = nested_formula(random, first, middle);
-    return Expression::node(kind, {std::move(left), nested_formula(random, middle, end)});
+    Expression left = nested_formula(random, first, middle, operands);
+    return Expression::node(kind, {std::move(left), nested_formula(random, middle, end, operands)});
 }
 
 void run_many(const Options& options, std::uint64_t index, Counters& counters) {
@@ -447,7 +447,8 @@ void run_many(const Options& options, std::uint64_t index, Counters& counters) {
     const bool is_nested = index % 3 == 2;
     if (is_nested && index % 2 == 0)
         for (reference::Operand& o : operands) o = engines::mapped(o, random);
-    const auto expression = is_nested ? nested_formula(random, 0, operands.size())
+    const std::size_t leaves = operands.size() + (index % 4 == 3 ? 1 + random.below(4) : 0);
+    const auto expression = is_nested ? nested_formula(random, 0, leaves, operands.size())
                                       : flat_formula(random, operands.size());
     std::string why;
     try {

@@ -15,6 +15,7 @@
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/evaluate/named_slots.h>
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
@@ -221,7 +222,7 @@ trisect::Solid evaluate_by_cells(const trisect::Expression& expression,
 std::optional<std::string> undivided_difference(const trisect::Expression& expression,
                                                 const trisect::EvaluateOptions& options) {
     using namespace trisect::detail;
-    const Translation t = translate(expression);
+    const Translation t = each_once(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
     const auto same_lattice = [&](const auto& s) { return s->lattice == states[0]->lattice; };
@@ -280,12 +281,19 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
     return std::string();
 }
 
+trisect::detail::Translation each_once(const trisect::Expression& expression) {
+    using namespace trisect::detail;
+    Translation t = with_named_slots(translate(expression));
+    if (auto copies = with_copies(t)) return *std::move(copies);
+    return t;
+}
+
 std::optional<std::string> pairwise_difference(const trisect::Expression& expression,
                                                const trisect::EvaluateOptions& options,
                                                const reference::CanonicalBoundary& expected,
                                                std::uint64_t& doubtful) {
     using namespace trisect::detail;
-    const Translation t = translate(expression);
+    const Translation t = each_once(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
     const auto same_lattice = [&](const auto& s) { return s->lattice == states[0]->lattice; };

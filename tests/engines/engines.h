@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -55,6 +56,9 @@ std::string open_edge(const trisect::PolygonMesh& mesh);
 /// they are divided. Meshes of any size are tried, pieces as well.
 [[nodiscard]] std::optional<std::string> undivided_difference(
     const trisect::Expression& expression, const trisect::EvaluateOptions& options);
+
+/// With copies of operands that are named again, where these can be made (named_slots.h).
+[[nodiscard]] trisect::detail::Translation each_once(const trisect::Expression& expression);
 
 /// What is wrong where a formula over many meshes is evaluated pair by pair, without a tree
 /// (many_meshes_without_tree.h), wherever they lie and by one, two or four threads: another

@@ -54,7 +54,7 @@ std::shared_ptr<const SolidState> without_tree(
     trisect::detail::EvaluateStats* found = nullptr,
     Evaluate evaluate = &trisect::detail::evaluate_many_without_tree) {
     using namespace trisect::detail;
-    const Translation t = translate(expression);
+    const Translation t = engines::each_once(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
     for (const trisect::Solid& s : t.slots) states.push_back(trisect::detail::state_of(s));
     trisect::EvaluateOptions options;
@@ -157,17 +157,19 @@ TEST(ManyMeshes, InGeneralPosition) {
 }
 
 // Unions, intersections and differences of each other, over operands `first` to `end`.
-Expression random_nested(reference::Random& random, std::size_t first, std::size_t end) {
+// Leaves beyond the operands name these again.
+Expression random_nested(reference::Random& random, std::size_t first, std::size_t end,
+                         std::size_t operands = ~std::size_t{0}) {
     if (first + 1 == end) {
-        const Expression leaf = Expression::leaf(first);
+        const Expression leaf = Expression::leaf(first % operands);
         return random.between(0, 4) == 0 ? Expression::node(Kind::Complement, {leaf}) : leaf;
     }
     const std::size_t middle =
         first + 1 + static_cast<std::size_t>(random.between(0, static_cast<int>(end - first) - 2));
     constexpr std::array kinds{Kind::Union, Kind::Intersection, Kind::Difference};
-    return Expression::node(
-        kinds[static_cast<std::size_t>(random.between(0, 2))],
-        {random_nested(random, first, middle), random_nested(random, middle, end)});
+    return Expression::node(kinds[static_cast<std::size_t>(random.between(0, 2))],
+                            {random_nested(random, first, middle, operands),
+                             random_nested(random, middle, end, operands)});
 }
 
 TEST(ManyMeshes, OfEachOtherInGeneralPosition) {
@@ -364,6 +366,19 @@ TEST(ManyMeshes, TubesInTubesThatEndInOnePlane) {
         }
     EXPECT_EQ(count.without_tree, 6);
     EXPECT_EQ(count.by_tree, 0);
+}
+
+// Leaves are named again: copies of operands take their places, and coincide with them.
+TEST(ManyMeshes, OperandsComeTwice) {
+    Count count;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 660000);
+        const std::size_t n = 2 + seed % 3;
+        const auto operands = reference::random_family(random, n, true);
+        expect_agreement(operands, random_nested(random, 0, n + 1 + seed % 4, n), count);
+    }
+    EXPECT_GT(count.without_tree, 150);
 }
 
 // Moved the wrong way, meshes leave gaps and sheets in every fourth formula.

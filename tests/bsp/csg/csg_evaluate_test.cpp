@@ -341,6 +341,28 @@ TEST(CsgEvaluate, ATurnedGroupOfAlmostFlushWallsMeetsItself) {
     EXPECT_NEAR(volume(turned), before * 0.999999300625, 1e-11);
 }
 
+// The sides of the tooth cross the line of its foot: by the even-odd rule, pieces that touch are
+// left. Each is sheared as a whole, its crossings are rounded once, and the mesh of a row of them
+// is as small as that of one.
+TEST(CsgEvaluate, ShearedRegionsWhoseOutlinesCross) {
+    const std::string tooth =
+        "linear_extrude(height = 8) "
+        "polygon([[0,-1],[4,-1],[4,-2],[3.5,-2],[2.5,1],[1.5,1],[0.5,-2],"
+        "[0,-2]]);";
+    const std::string shear = "multmatrix([[1,0,1,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]])";
+    const Solid straight = evaluate_csg(parse_csg(tooth, "straight.csg"));
+    const Solid sheared = evaluate_csg(parse_csg(shear + tooth, "sheared.csg"));
+    EXPECT_NEAR(volume(sheared), volume(straight), 1e-12);
+    EXPECT_EQ(sheared.to_mesh().face_count(), straight.to_mesh().face_count());
+    std::string row = "union() {";
+    for (const char* x : {"0", "4", "8"})
+        row += std::string("multmatrix([[1,0,0,") + x + "],[0,1,0,0],[0,0,1,0],[0,0,0,1]])" +
+               shear + tooth;
+    const Solid teeth = evaluate_csg(parse_csg(row + "}", "row.csg"));
+    EXPECT_NEAR(volume(teeth), 3 * volume(straight), 1e-11);
+    EXPECT_LE(teeth.to_mesh().face_count(), 3 * straight.to_mesh().face_count());
+}
+
 int code_of(const std::string& text) {
     try {
         (void)volume_of(text);
