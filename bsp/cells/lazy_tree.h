@@ -36,6 +36,11 @@ public:
     [[nodiscard]] const std::shared_ptr<const SolidState>& cut() const;
     [[nodiscard]] bool is_cut() const;
 
+    /// Null where it is made otherwise.
+    [[nodiscard]] const Residual::Ref& formula() const { return formula_; }
+    [[nodiscard]] const SolidStates& solids() const { return solids_; }
+    [[nodiscard]] const EvaluateSettings& settings() const { return settings_; }
+
 private:
     Residual::Ref formula_;
     SolidStates solids_;

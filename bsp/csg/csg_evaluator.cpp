@@ -12,7 +12,9 @@
 #include <system_error>
 #include <utility>
 
+#include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/hull.h>
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/plane_hull.h>
 #include <trisect/bsp/solid_transform.h>
@@ -170,10 +172,16 @@ Expression CsgEvaluator::group(std::uint32_t n, const CsgFrame& frame) {
 }
 
 /// The same set with the colour, as a source of its own: for what has faces of many sources, and
-/// for prisms over regions, which have none before they are cut.
+/// for prisms over regions, which have none before they are cut. Those whose corners are doubles
+/// stay meshes.
 Solid CsgEvaluator::tinted(const Solid& solid, const CsgFrame& frame) {
     if (frame.color < 0 || solid.is_empty()) return solid;
-    Solid out = Solid::from_brep(solid.to_brep());
+    Solid out;
+    if (const auto flat = flat_outlines(solid); flat && flat->is_exact) {
+        ImportedMesh mesh = import_mesh(solid.to_mesh());
+        if (is_embedded(mesh.mesh)) out = Solid::from_import(std::move(mesh));
+    }
+    if (out.is_empty()) out = Solid::from_brep(solid.to_brep());
     kept_.note_color(out.source_id(), frame.color);
     return out;
 }

@@ -18,6 +18,8 @@
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/divide/refine_leaf.h>
 #include <trisect/bsp/evaluate/half_space.h>
+#include <trisect/bsp/evaluate/rules.h>
+#include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 #include <trisect/bsp/solid/inside_out.h>
 #include <trisect/bsp/solid/uncut_root.h>
 #include <trisect/bsp/solid_of_findings.h>
@@ -249,10 +251,24 @@ void require_bounded(const Solid& solid) {
         throw UnsupportedError("the set is unbounded: its mesh would be read as another set");
 }
 
+// Prisms whose outlines have no names, pair by pair: a tree would cut all that they have in common.
+// Null where that does not serve, and where they have a tree already.
+std::shared_ptr<const SolidState> pair_by_pair(const SolidState& solid) {
+    const auto* const prisms = std::get_if<detail::PrismOutlines>(&solid.form);
+    if (prisms == nullptr || prisms->tree->formula() == nullptr || prisms->tree->is_cut())
+        return nullptr;
+    detail::EvaluateStats ignored;
+    return detail::evaluate_by({&detail::may_be_many_meshes, &detail::evaluate_many_without_tree},
+                               prisms->tree->formula(), prisms->tree->solids(),
+                               prisms->tree->settings(), ignored);
+}
+
 // With the names of maximal faces.
-const SolidState& named_state(const Solid& solid) {
-    const SolidState& own = *detail::state_of(solid);
-    return has_all_of_brep(own, {}) ? own : *detail::cut_state(solid);
+std::shared_ptr<const SolidState> named_state(const Solid& solid) {
+    const auto& own = detail::state_of(solid);
+    if (has_all_of_brep(*own, {})) return own;
+    if (auto named = pair_by_pair(*own)) return named;
+    return detail::cut_state(solid);
 }
 
 }  // namespace
@@ -265,11 +281,11 @@ PolygonMesh Solid::to_mesh(std::uint32_t threads) const {
 PolygonMesh Solid::to_mesh(MeshMap& map, std::uint32_t threads) const {
     require_bounded(*this);
     map.face.clear();
-    return detail::assemble_mesh(named_state(*this), nullptr, true, threads, &map.source);
+    return detail::assemble_mesh(*named_state(*this), nullptr, true, threads, &map.source);
 }
 
 ExactMesh Solid::to_exact_mesh(std::uint32_t threads) const {
-    return detail::assemble_exact_mesh(named_state(*this), threads);
+    return detail::assemble_exact_mesh(*named_state(*this), threads);
 }
 
 }  // namespace trisect

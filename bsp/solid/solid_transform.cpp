@@ -362,10 +362,9 @@ Solid transformed(const Solid& solid, const Pose& pose, LatticeReport* report) {
     made.lattice = solid.lattice();
     Solid out = solid;
     if (detail::state_of(solid)->lattice_matters && !(pose == Pose())) {
-        const auto permutation = permutation_of(pose);
         std::optional<StatePtr> there;
-        // What is rounded needs the boundary alone, and no tree.
-        if (permutation) {
+        // Others are rounded from a mesh, which takes no tree.
+        if (const auto permutation = permutation_of(pose)) {
             const StatePtr state = detail::cut_state(solid);
             there = state->whole ? moved(state, *permutation, pose, made)
                                  : moved_with_fractions(state, *permutation, pose);
