@@ -79,8 +79,8 @@ void do_both(bool parallel, const First& first, const Second& second) {
 
 // Meshes of so many times the facets of the other one cost more as a whole than by their index.
 constexpr std::size_t of_a_size = 16;
-// Fewer facets are looked at in a millisecond; more are worth an index from the first time on.
-constexpr std::size_t soon_compared = std::size_t{1} << 15;
+// Fewer facets are looked at in two milliseconds; more are worth an index from the first time on.
+constexpr std::size_t soon_compared = std::size_t{1} << 16;
 
 // The meshes, and whether they are worth it.
 struct TwoMeshes {
