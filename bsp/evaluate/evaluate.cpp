@@ -122,10 +122,16 @@ private:
     detail::EvaluateStats made_;
 };
 
+// Fewer facets are arranged in cells as fast.
+constexpr std::size_t least_of_copies = 512;
+
 // Where an operand is named more than once: pair by pair, with copies of it. They coincide all
 // over, which costs more in cells.
 std::optional<Solid> of_copies(const detail::Translation& t, const EvaluateOptions& options,
                                EvaluateReport* report) {
+    std::uint64_t facets = 0;
+    for (const Solid& s : t.slots) facets += detail::cut_state(s)->root().node->size();
+    if (facets < least_of_copies) return std::nullopt;
     const auto copies = detail::with_copies(t);
     if (!copies) return std::nullopt;
     Operands operands(*copies, options);
