@@ -78,7 +78,9 @@ bool has_boundary(const Solid& solid) {
         lists = false;
         if (finds_boundary(*tree->root.node, detail::Cell{}, lists)) return true;
     } else if (const auto* const meshes = std::get_if<detail::UndividedMeshes>(&s.form)) {
-        if (std::ranges::any_of(meshes->uncrossed, [](const auto& u) { return !u.facets.empty(); }))
+        // In sheets of no thickness whole facets face each other.
+        if (!meshes->may_have_sheets &&
+            std::ranges::any_of(meshes->uncrossed, [](const auto& u) { return !u.facets.empty(); }))
             return true;
     } else if (const auto* const flat = std::get_if<detail::FlatPrism>(&s.form)) {
         return !flat->operand->resolved().is_empty();

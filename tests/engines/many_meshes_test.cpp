@@ -112,6 +112,8 @@ void expect_agreement(const std::vector<Operand>& operands, const Expression& ex
         const auto expected = reference::evaluate(operands, expression);
         const trisect::Brep brep = trisect::detail::assemble_brep(*state, {});
         EXPECT_EQ(engines::difference(brep, reference::canonical_boundary(expected.cells)), "");
+        const trisect::Solid solid = trisect::detail::solid_of(state);
+        EXPECT_EQ(solid.is_empty() || solid.is_whole_space(), brep.is_empty());
         // Also the edges in which faces go straight across each other.
         const trisect::BrepCounts of_cells = by_cells(formula).to_brep().counts();
         EXPECT_EQ(brep.counts().edges, of_cells.edges);
@@ -379,6 +381,24 @@ TEST(ManyMeshes, OperandsComeTwice) {
         expect_agreement(operands, random_nested(random, 0, n + 1 + seed % 4, n), count);
     }
     EXPECT_GT(count.without_tree, 150);
+}
+
+// Nothing bounds the result: whole facets face each other.
+TEST(ManyMeshes, OperandsThatComeTwiceMakeWholeSpace) {
+    trisect::PolygonMesh moved = trisect::make_icosphere(1, 3);
+    for (auto& p : moved.points) p[0] += 0.51;
+    const trisect::Expression a = trisect::Solid::from_mesh(trisect::make_icosphere(1, 3));
+    const trisect::Expression b = trisect::Solid::from_mesh(moved);
+    const trisect::Solid whole = evaluate((a | b) | (~a & ~b));
+    EXPECT_TRUE(std::holds_alternative<trisect::detail::UndividedMeshes>(
+        trisect::detail::state_of(whole)->form));
+    EXPECT_TRUE(whole.is_whole_space());
+    EXPECT_FALSE(whole.is_empty());
+    EXPECT_THROW((void)whole.to_mesh(), trisect::UnsupportedError);
+    const trisect::Solid none = evaluate((a & b) & (~a | ~b));
+    EXPECT_TRUE(none.is_empty());
+    EXPECT_FALSE(none.is_whole_space());
+    EXPECT_EQ(none.to_mesh().face_count(), 0U);
 }
 
 // Moved the wrong way, meshes leave gaps and sheets in every fourth formula.
