@@ -48,8 +48,8 @@ public:
 
     /// Whether it is plainly the boundary of a convex solid, seen from outside: then no two
     /// triangles meet beyond the corners and edges that they share. Exact; false as well where a
-    /// corner lies within a face, or those of a triangle are in a row. Ends at the first edge that is not convex. O(n) where few edges
-    /// meet in a corner.
+    /// corner lies within a face, or those of a triangle are in a row. Ends at the first edge that
+    /// is not convex. O(n) where few edges meet in a corner.
     [[nodiscard]] bool is_convex() const;
 
 private:
