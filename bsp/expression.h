@@ -119,8 +119,8 @@ struct EvaluateReport {
 };
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
-/// Of two large meshes, of a mesh between parallel half-spaces, and of prisms along one axis, only
-/// what a mesh of the result needs is found out; the first call that needs its cells (a query,
+/// Of two meshes, of many that touch or fill one place, of a mesh between parallel half-spaces, and
+/// of prisms along one axis, only what a mesh of the result needs is found out; the first call that needs its cells (a query,
 /// another operation) divides space then, which may take longer than this call. Solid::refine()
 /// does so ahead.
 /// Operands of different lattices are moved to the finest one on which all of them fit. That is
