@@ -120,17 +120,15 @@ struct EvaluateReport {
 
 /// The set that the formula describes. Exact. Never fails for valid operands.
 /// Of two meshes, of many that touch or fill one place, of a mesh between parallel half-spaces, and
-/// of prisms along one axis, only what a mesh of the result needs is found out; the first call that needs its cells (a query,
-/// another operation) divides space then, which may take longer than this call. Solid::refine()
-/// does so ahead.
-/// Operands of different lattices are moved to the finest one on which all of them fit. That is
-/// exact, except for operands of very different size: see EvaluateOptions::lattices and
-/// EvaluateReport::lattice. Counts in EvaluateCounters.
-/// What limits and cancels it is the StopScope of the calling thread, looked at for every cell and
-/// for every polygon of a leaf. Operands whose trees are made now count as well.
-/// \throw LimitError when the operands have no common lattice, the formula nests more than 4096
-/// alternating operations, or the work or memory of the scope is spent; CancelledError. Operands
-/// stay as they were.
+/// of prisms along one axis, only what a mesh of the result needs is found out; the first call that
+/// needs its cells (a query, another operation) divides space then, which may take longer than this
+/// call. Solid::refine() does so ahead. Operands of different lattices are moved to the finest one
+/// on which all of them fit. That is exact, except for operands of very different size: see
+/// EvaluateOptions::lattices and EvaluateReport::lattice. Counts in EvaluateCounters. What limits
+/// and cancels it is the StopScope of the calling thread, looked at for every cell and for every
+/// polygon of a leaf. Operands whose trees are made now count as well. \throw LimitError when the
+/// operands have no common lattice, the formula nests more than 4096 alternating operations, or the
+/// work or memory of the scope is spent; CancelledError. Operands stay as they were.
 [[nodiscard]] Solid evaluate(const Expression& expression, const EvaluateOptions& options = {},
                              EvaluateReport* report = nullptr);
 
