@@ -14,6 +14,8 @@ struct EmbeddingCounters {
     std::uint64_t height_fields = 0;  ///< surfaces over a flat bottom
     std::uint64_t convex = 0;         ///< surfaces
     std::uint64_t compared = 0;       ///< surfaces whose triangles were compared in pairs
+    std::uint64_t graph_corners = 0;  ///< pairs at a corner whose triangles are a graph
+    std::uint64_t turned_lines = 0;   ///< pairs that an edge's line does along the part's own axes
     std::uint64_t edge_lines = 0;     ///< pairs that the line of an edge keeps apart
     std::uint64_t own_planes = 0;     ///< pairs that the plane of one of them keeps apart
     std::uint64_t intervals = 0;      ///< pairs that are apart on the line of their planes
@@ -25,6 +27,8 @@ struct EmbeddingCounters {
         height_fields -= o.height_fields;
         convex -= o.convex;
         compared -= o.compared;
+        graph_corners -= o.graph_corners;
+        turned_lines -= o.turned_lines;
         edge_lines -= o.edge_lines;
         own_planes -= o.own_planes;
         intervals -= o.intervals;

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The twins of half-edges give shells and sheets in one pass each, and triangles are compared only
-// where sheets come together.
+// where sheets come together. Not those around a corner where they are a graph over a plane, which
+// is one pass, too. A turned part is looked at along its own axes, where boxes of its flat faces
+// are flat.
 
 #include <trisect/brep/validate/manifold_mesh.h>
 
 #include <algorithm>
 
 #include <trisect/brep/contact/embedding_counters.h>
+#include <trisect/brep/contact/graph_corners.h>
 #include <trisect/brep/contact/triangle_contact.h>
+#include <trisect/brep/contact/turned_points.h>
 #include <trisect/brep/import/volume_sign.h>
 #include <trisect/brep/validate/sheet_grid.h>
 #include <trisect/brep/validate/sheets.h>
@@ -24,6 +28,13 @@ constexpr std::uint64_t pairs_of_a_triangle = 200;
 constexpr std::uint64_t least_pairs = 1'000'000;
 
 enum class Found : std::uint8_t { Nothing, Contact, Unclear };
+
+bool share_one_of(std::span<const std::uint8_t> corners, const ManifoldMesh::Triangle& a,
+                  const ManifoldMesh::Triangle& b) {
+    return std::ranges::any_of(a, [&](std::uint32_t c) {
+        return corners[c] != 0 && (c == b[0] || c == b[1] || c == b[2]);
+    });
+}
 
 }  // namespace
 
@@ -71,17 +82,29 @@ std::optional<bool> ManifoldMesh::has_no_contact() const {
     end_step();
     std::vector<Triangle> near;
     std::vector<std::uint32_t> sheet_of;
-    for (const std::uint32_t t : triangles_near_others(points_, triangles_, *sheets)) {
+    const auto turned = TurnedPoints::of(points_, triangles_);
+    const auto seen = turned ? std::span<const LatticePoint>(turned->points) : points_;
+    const double error = turned ? turned->error : 0;
+    for (const std::uint32_t t : triangles_near_others(seen, triangles_, *sheets, error)) {
         near.push_back(triangles_[t]);
         sheet_of.push_back((*sheets)[t]);
     }
-    const auto relation_of = [this](const Triangle& a, const Triangle& b) {
+    const std::vector<std::uint8_t> is_graph = find_graph_corners(points_, triangles_, near);
+    const auto relation_of = [&](const Triangle& a, const Triangle& b) {
+        if (share_one_of(is_graph, a, b)) {
+            ++embedding_counters().graph_corners;
+            return Found::Nothing;
+        }
+        if (turned && turned->are_apart(a, b)) {
+            ++embedding_counters().turned_lines;
+            return Found::Nothing;
+        }
         if (has_equal_corners(a, b)) return Found::Unclear;
         return find_contact(points_, a, b).kind == ContactKind::None ? Found::Nothing
                                                                      : Found::Contact;
     };
     end_step();
-    TriangleTree tree(points_, near, sheet_of);
+    TriangleTree tree(seen, near, sheet_of, error);
     Found found = Found::Nothing;
     std::uint64_t pairs = 0;
     const std::uint64_t limit = pair_limit_of(triangles_.size());

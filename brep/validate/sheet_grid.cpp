@@ -30,11 +30,12 @@ constexpr int least_bits = 3, most_bits = 8;
 class SheetGrid {
 public:
     SheetGrid(std::span<const LatticePoint> points,
-              std::span<const std::array<std::uint32_t, 3>> triangles)
+              std::span<const std::array<std::uint32_t, 3>> triangles, double error)
         : boxes_(triangles.size()) {
         LatticeBox all;
         for (std::size_t t = 0; t < triangles.size(); ++t) {
             for (const std::uint32_t c : triangles[t]) boxes_[t].add(points[c]);
+            if (error > 0) boxes_[t].grow(error);
             all.add(boxes_[t]);
         }
         // About as many cubes as triangles: a surface comes to few of them.
@@ -107,8 +108,8 @@ private:
 
 std::vector<std::uint32_t> triangles_near_others(
     std::span<const LatticePoint> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-    std::span<const std::uint32_t> sheets) {
-    SheetGrid grid(points, triangles);
+    std::span<const std::uint32_t> sheets, double error) {
+    SheetGrid grid(points, triangles, error);
     check_stop(triangles.size());
     std::vector<std::uint32_t> near;
     if (grid.cubes_of_all_boxes() > most_cubes_a_triangle * triangles.size()) {

@@ -64,10 +64,12 @@ Iterator halve(Iterator begin, Iterator end, const BoxOf& box_of, const IdOf& id
 
 TriangleTree::TriangleTree(std::span<const LatticePoint> points,
                            std::span<const std::array<std::uint32_t, 3>> triangles,
-                           std::span<const std::uint32_t> sheets)
-    : points_(points), triangles_(triangles), boxes_(triangles.size()) {
-    for (std::size_t t = 0; t < triangles.size(); ++t)
+                           std::span<const std::uint32_t> sheets, double error)
+    : points_(points), triangles_(triangles), boxes_(triangles.size()), error_(error) {
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
         for (const std::uint32_t c : triangles[t]) boxes_[t].add(points[c]);
+        if (error > 0) boxes_[t].grow(error);
+    }
     if (triangles.empty()) return;
     order_.reserve(triangles.size());
     end_step();
@@ -163,9 +165,12 @@ std::array<std::uint32_t, 2> TriangleTree::children(std::uint32_t node) {
 }
 
 TriangleTree::TurnedBoxes::TurnedBoxes(const TriangleTree& tree)
-    : tree_(tree), frame_(tree.nodes_[0].box.low, tree.nodes_[0].box.high) {}
+    : tree_(tree), frame_(tree.nodes_[0].box.low, tree.nodes_[0].box.high) {
+    frame_.margin += 4 * tree.error_;  // two points, each off by a diagonal
+}
 
 bool TriangleTree::TurnedBoxes::are_apart(std::uint32_t a, std::uint32_t b) {
+    if (tree_.error_ > 0) return false;  // boxes along the axes of the part are good ones
     if (visits_.size() < tree_.nodes_.size()) visits_.resize(tree_.nodes_.size(), 0);
     const bool a_is_hot = is_hot(a);
     const bool b_is_hot = is_hot(b);
@@ -189,6 +194,7 @@ bool TriangleTree::TurnedBoxes::is_hot(std::uint32_t node) {
 unsigned TriangleTree::TurnedBoxes::meeting(std::uint32_t leaf, std::uint32_t other) {
     const std::uint32_t count = tree_.nodes_[leaf].count();
     const unsigned all = (1U << count) - 1;
+    if (tree_.error_ > 0) return all;
     if (visits_[leaf] <= hot_visits || visits_[other] <= hot_visits) return all;
     const std::uint32_t first = triangles_of(leaf);
     const TurnedBox& box = boxes_[visits_[other] - hot_visits - 1];

@@ -30,6 +30,15 @@ struct LatticeBox {
         low = {std::min(low.x, b.low.x), std::min(low.y, b.low.y), std::min(low.z, b.low.z)};
         high = {std::max(high.x, b.high.x), std::max(high.y, b.high.y), std::max(high.z, b.high.z)};
     }
+    /// By so much on each side, rounded.
+    void grow(double by) {
+        const auto moved = [](const LatticePoint& p, double d) {
+            return LatticePoint{Coordinate(p.x.to_double() + d), Coordinate(p.y.to_double() + d),
+                                Coordinate(p.z.to_double() + d)};
+        };
+        low = moved(low, -by);
+        high = moved(high, by);
+    }
     /// Touching counts.
     [[nodiscard]] bool overlaps(const LatticeBox& b) const {
         return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y &&
@@ -42,10 +51,11 @@ struct LatticeBox {
 /// search comes to: most of it lies where nothing else is. Refers to the mesh; for one thread.
 class TriangleTree {
 public:
-    /// `sheets` gives each triangle a sheet, or no_sheet; empty if there are none. O(n log n).
+    /// `sheets` gives each triangle a sheet, or no_sheet; empty if there are none. A coordinate may
+    /// be off by `error`, which boxes make up for. O(n log n).
     TriangleTree(std::span<const LatticePoint> points,
                  std::span<const std::array<std::uint32_t, 3>> triangles,
-                 std::span<const std::uint32_t> sheets = {});
+                 std::span<const std::uint32_t> sheets = {}, double error = 0);
 
     /// Calls visit(a, b), a < b, once for every pair of triangles that are not of one sheet and
     /// whose boxes overlap, except for pairs that turned boxes prove to be apart; the order is
@@ -198,6 +208,7 @@ private:
     std::vector<LatticeBox> boxes_;
     std::vector<std::uint32_t> order_;
     std::vector<Node> nodes_;
+    double error_;
 };
 
 }  // namespace trisect::detail

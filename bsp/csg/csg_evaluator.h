@@ -96,6 +96,7 @@ private:
     [[nodiscard]] Solid minkowski(std::uint32_t n);
     [[nodiscard]] Solid offset(std::uint32_t n);
     [[nodiscard]] std::optional<PolygonMesh> turned_mesh(std::uint32_t n);
+    [[nodiscard]] std::optional<PolygonMesh> surface_at_ground(std::uint32_t n);
     [[nodiscard]] Solid projection(std::uint32_t n);
     [[nodiscard]] Expression resized(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] std::filesystem::path file_named(std::uint32_t n);
@@ -112,6 +113,12 @@ private:
     CsgReport& report_;
     CsgKept& kept_;
     TurnedMesh last_turned_;
+    // Or of one height field.
+    struct SurfaceMesh {
+        std::string key;
+        PolygonMesh mesh;
+    };
+    SurfaceMesh last_surface_;
 };
 
 }  // namespace trisect::detail

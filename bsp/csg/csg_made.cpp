@@ -4,8 +4,10 @@
 // and resized ones. They are made at the origin, once for equal content, and put into place.
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/minkowski.h>
@@ -42,6 +44,52 @@ std::array<double, 3> factors_of(const CsgArguments& in, const Bounds& box, int 
         if (!(sizes[k] > 0) && follows[k]) out[k] = out[largest];
     return out;
 }
+
+/// The triangles of a mesh under a map that reach the plane z = 0: all that its section there
+/// depends on. Convex faces are fans.
+class GroundTriangles {
+public:
+    GroundTriangles(const PolygonMesh& mesh, const AffineMap& map)
+        : mesh_(mesh), map_(map), number_(mesh.points.size(), none) {
+        side_.reserve(mesh.points.size());
+        for (const Point3d& p : mesh.points) {
+            const double z = map.apply(p)[2];
+            side_.push_back(static_cast<std::int8_t>(z > 0 ? 1 : z < 0 ? -1 : 0));
+        }
+    }
+    [[nodiscard]] PolygonMesh run() && {
+        const bool turns_over = map_.orientation() < 0;
+        for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+            const auto face = mesh_.face(f);
+            for (std::size_t k = 2; k < face.size(); ++k)
+                add(face[0], face[turns_over ? k : k - 1], face[turns_over ? k - 1 : k]);
+        }
+        return std::move(out_);
+    }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (side_[a] != 0 && side_[a] == side_[b] && side_[a] == side_[c]) return;
+        const std::uint32_t first = numbered(a);
+        const std::uint32_t second = numbered(b);
+        out_.add_triangle(first, second, numbered(c));
+    }
+    std::uint32_t numbered(std::uint32_t p) {
+        if (number_[p] == none) {
+            number_[p] = static_cast<std::uint32_t>(out_.points.size());
+            out_.points.push_back(map_.apply(mesh_.points[p]));
+        }
+        return number_[p];
+    }
+
+    const PolygonMesh& mesh_;
+    const AffineMap& map_;
+    std::vector<std::int8_t> side_;
+    std::vector<std::uint32_t> number_;
+    PolygonMesh out_;
+};
 
 }  // namespace
 
@@ -144,8 +192,36 @@ std::optional<PolygonMesh> CsgEvaluator::turned_mesh(std::uint32_t n) {
     return transformed_mesh(last_turned_.mesh, map);
 }
 
+/// Of one height field its triangles at z = 0 will do: it never meets itself. Nothing where axes do
+/// not stay axes, so that its bottom, a polygon, stays plane.
+std::optional<PolygonMesh> CsgEvaluator::surface_at_ground(std::uint32_t n) {
+    AffineMap map;
+    while (program_.node(n).name != "surface") {
+        const std::vector<std::uint32_t> used = program_.used_children(n);
+        const CsgKind kind = program_.kind(n);
+        if (used.size() != 1 || program_.dimension(used[0]) != 3) return std::nullopt;
+        if (kind == CsgKind::Matrix)
+            map = compose(map, csg_matrix(program_.arguments(n), false));
+        else if (kind != CsgKind::Group && kind != CsgKind::Projection)
+            return std::nullopt;
+        n = used[0];
+    }
+    if (map.orientation() == 0 || !changes_axes(map)) return std::nullopt;
+    ++report_.leaves;
+    std::string key = csg_key(program_, n, CsgFrame());
+    if (last_surface_.key != key) {
+        ++report_.meshes;
+        last_surface_ = {std::move(key), mesh_of(n)};
+    }
+    if (last_surface_.mesh.face_count() == 0) return std::nullopt;
+    return GroundTriangles(last_surface_.mesh, map).run();
+}
+
 Solid CsgEvaluator::projection(std::uint32_t n) {
     const bool cut = program_.arguments(n).truth("cut", false);
+    if (cut)
+        if (const auto mesh = surface_at_ground(n))
+            return section_of_mesh(*mesh, 0, options_.evaluate);
     if (const auto mesh = turned_mesh(n))
         return cut ? section_of_mesh(*mesh, 0, options_.evaluate)
                    : shadow_of_mesh(*mesh, options_.evaluate);

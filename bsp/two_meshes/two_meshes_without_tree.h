@@ -19,7 +19,7 @@ namespace trisect::detail {
 /// large, or was compared with such a one before: it gets an index then, and what is beside the
 /// smaller one is not looked at. Meshes of fewer than `least_facets` are one leaf of a tree.
 [[nodiscard]] bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
-                                  const EvaluateSettings& options, std::size_t least_facets = 16);
+                                  const EvaluateSettings& options, std::size_t least_facets = 4);
 
 /// The value of such a formula, with that tree. Nothing where a pair of facets is not decided, or
 /// sides of facets are not known from the pairs. What it returns does not depend on the number of

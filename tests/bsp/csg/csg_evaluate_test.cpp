@@ -266,6 +266,28 @@ TEST_F(CsgFiles, TheGroundOfHeightsIsAtZeroOrBelow) {
     EXPECT_EQ(volume_of("surface(file = \"" + high + "\");"), "5");
 }
 
+// Beside a cube that the plane does not cut a height field is one of many shapes, and a solid.
+TEST_F(CsgFiles, SectionsOfHeightFieldsAreThoseOfTheirSolids) {
+    const std::string file =
+        write("trisect_cut.dat", "1 2 3 0.1\n4 5 7 2\n0.3 2 2 -1\n3 1 0.7 4\n");
+    const std::string surface = "surface(file = \"" + file + "\", center = true);";
+    const std::string cube = "multmatrix([[1,0,0,0],[0,1,0,0],[0,0,1,50]]) cube(size = 1);";
+    const std::vector<std::string> axes{
+        "[1,0,0,0],[0,1,0,0],[0,0,1,", "[1,0,0,0],[0,1,0,0],[0,0,-1,",
+        "[0,0,1,0],[0,1,0,0],[1,0,0,", "[0,0,2,0],[1,0,0,0],[0,-1,0,",
+        "[0.1,0,0,0],[0,3,0,0],[0,0,1,"};
+    int areas = 0;
+    for (const std::string& map : axes)
+        for (const std::string height :
+             {"-3", "-2", "-1", "-0.75", "0", "0.1", "0.5", "1", "2", "3.3"}) {
+            const std::string moved = "multmatrix([" + map + height + "]]) " + surface;
+            const std::string alone = volume_of("projection(cut = true) " + moved);
+            EXPECT_EQ(alone, volume_of("projection(cut = true) {" + moved + cube + "}")) << moved;
+            if (alone != "0") ++areas;
+        }
+    EXPECT_GT(areas, 25);
+}
+
 TEST(CsgEvaluate, EqualShapesAreMadeOnce) {
     CsgReport report;
     EXPECT_EQ(volume_of("cube(size = 1); group() { color([1, 0, 0]) cube(size = 1); }", &report),
