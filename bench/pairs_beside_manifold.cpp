@@ -2,13 +2,15 @@
 //
 // Booleans of random mesh files by the library and by Manifold, in one process.
 //
-//     pairs_beside_manifold [--seed N] [--pairs N] [--operands N] [--rounds N] FILE...
+//     pairs_beside_manifold [--seed N] [--pairs N] [--operands N] [--boxes 1] [--rounds N] FILE...
 //
 // The second file of a pair is put where a random point of the first one's box is, to eighths of a
 // unit; in half of the pairs it is turned by 90 degrees about the z axis, and in half it begins in
 // the plane in which the first one's box begins, along one axis, so that faces are flush. One of
 // union, difference and intersection. --operands N: 3 to N files in place of pairs, each of the
-// others placed so by itself, and in place of an intersection every other one less the rest. Prints
+// others placed so by itself, and in place of an intersection every other one less the rest.
+// --boxes 1: in place of the second file a box that has all of the first one on one side of a plane
+// across an axis, in half of the pairs one through a vertex. Prints
 // a line of tab-separated values for each formula: the operation, the placement, how many operands,
 // triangles of these and of the result, least processor seconds of either in `rounds` turns from
 // arrays to arrays with one thread, their ratio, volumes, files. Then for each placement, or
@@ -34,6 +36,7 @@
 
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/measure.h>
+#include <trisect/brep/primitives/box.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 
@@ -181,6 +184,18 @@ void print(const std::map<std::string, Summary>& summaries) {
     }
 }
 
+// What is above `height` along an axis, and more.
+PolygonMesh box_above(const Range& range, std::size_t axis, double height) {
+    trisect::Point3d low{}, high{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double extent = range.hi[k] - range.lo[k];
+        low[k] = std::floor(range.lo[k] - extent / 2 - 1);
+        high[k] = std::ceil(range.hi[k] + extent / 2 + 1);
+    }
+    low[axis] = height;
+    return trisect::make_box(low, high);
+}
+
 class RandomFormulas {
 public:
     RandomFormulas(std::vector<std::string> files, int seed, int rounds, int operands)
@@ -205,6 +220,23 @@ public:
             name = count > 2 ? operations[operation] : placement.name();
         }
         compare(meshes, operation, name, files);
+    }
+
+    void compare_one_with_box() {
+        const std::size_t operation = random_() % 3;
+        const std::string& file = any_file();
+        const PolygonMesh& mesh = mesh_of(file);
+        const std::size_t axis = random_() % 3;
+        const Range range = range_of(mesh);
+        const bool through_vertex = random_() % 2 != 0;
+        const double part = static_cast<double>(200 + random_() % 600) / 1000;
+        double height = range.lo[axis] + part * (range.hi[axis] - range.lo[axis]);
+        if (through_vertex) {
+            const auto far = [&](const trisect::Point3d& p) { return std::fabs(p[axis] - height); };
+            height = (*std::ranges::min_element(mesh.points, {}, far))[axis];
+        }
+        compare({mesh, box_above(range, axis, height)}, operation,
+                through_vertex ? "box from a vertex" : "box", file);
     }
 
     void compare(const std::vector<PolygonMesh>& meshes, std::size_t operation,
@@ -266,6 +298,7 @@ int main(int argc, char** argv) {
     int pairs = 100;
     int rounds = 2;
     int operands = 2;
+    int boxes = 0;
     std::vector<std::string> files;
     for (int i = 1; i < argc; ++i) {
         const std::string_view option = argv[i];
@@ -273,6 +306,7 @@ int main(int argc, char** argv) {
                      : option == "--pairs"    ? &pairs
                      : option == "--rounds"   ? &rounds
                      : option == "--operands" ? &operands
+                     : option == "--boxes"    ? &boxes
                                               : nullptr;
         if (value != nullptr && i + 1 < argc)
             *value = std::atoi(argv[++i]);
@@ -281,14 +315,15 @@ int main(int argc, char** argv) {
     }
     if (files.empty()) {
         std::fprintf(stderr,
-                     "usage: %s [--seed N] [--pairs N] [--operands N] [--rounds N] FILE...\n",
+                     "usage: %s [--seed N] [--pairs N] [--operands N] [--boxes 1] [--rounds N] "
+                     "FILE...\n",
                      argv[0]);
         return 2;
     }
     RandomFormulas all(files, seed, rounds, operands);
     for (int i = 0; i < pairs; ++i) {
         try {
-            all.compare_one();
+            boxes != 0 ? all.compare_one_with_box() : all.compare_one();
         } catch (const std::exception& error) {
             std::fprintf(stderr, "pair %d: %s\n", i, error.what());
             return 1;
