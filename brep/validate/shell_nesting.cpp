@@ -66,11 +66,30 @@ constexpr std::size_t facet_limit = 64;
 
 std::optional<int> ShellNesting::winding_outside(std::uint32_t shell,
                                                  std::span<const Triangle> own) {
+    const auto windings = windings_outside(shell, own);
+    if (!windings) return std::nullopt;
+    int sum = 0;
+    for (const Winding& w : *windings) sum += w.number;
+    return sum;
+}
+
+std::optional<std::vector<std::uint32_t>> ShellNesting::shells_around(
+    std::uint32_t shell, std::span<const Triangle> own) {
+    const auto windings = windings_outside(shell, own);
+    if (!windings) return std::nullopt;
+    std::vector<std::uint32_t> out;
+    for (const Winding& w : *windings)
+        if (w.number != 0) out.push_back(w.shell);
+    return out;
+}
+
+std::optional<ShellNesting::Windings> ShellNesting::windings_outside(
+    std::uint32_t shell, std::span<const Triangle> own) {
     for (const Triangle& t : own.first(std::min(own.size(), facet_limit))) {
         const std::array<LatticePoint, 3> corners{points_[t[0]], points_[t[1]], points_[t[2]]};
         const Ray ray = shortest_way_out(corners);
         if (ray.length < 0) continue;
-        if (const auto w = winding_along(ray, shell)) return w;
+        if (auto w = windings_along(ray, shell)) return w;
     }
     return std::nullopt;
 }
@@ -95,14 +114,15 @@ ShellNesting::Ray ShellNesting::shortest_way_out(const std::array<LatticePoint, 
     return best;
 }
 
-std::optional<int> ShellNesting::winding_along(const Ray& ray, std::uint32_t without) {
+std::optional<ShellNesting::Windings> ShellNesting::windings_along(const Ray& ray,
+                                                                   std::uint32_t without) {
     LatticeBox way;
     way.add(ray.from[0]);
     const auto end = ray.is_upwards ? all_.high[ray.axis] : all_.low[ray.axis];
     const LatticePoint& p = ray.from[0];
     const auto at = [&](int axis) { return axis == ray.axis ? end : p[axis]; };
     way.add(LatticePoint{at(0), at(1), at(2)});
-    int winding = 0;
+    Windings crossings;
     bool known = true;
     tree_.for_each_in(way, [&](std::uint32_t t) {
         const std::uint32_t shell = shell_of_triangle_[t];
@@ -111,9 +131,19 @@ std::optional<int> ShellNesting::winding_along(const Ray& ray, std::uint32_t wit
         const auto crossing =
             ray.crossing({points_[corners[0]], points_[corners[1]], points_[corners[2]]});
         known = known && crossing.has_value();
-        winding += crossing.value_or(0);
+        if (crossing.value_or(0) != 0) crossings.push_back({shell, *crossing});
     });
-    return known ? std::optional(winding) : std::nullopt;
+    if (!known) return std::nullopt;
+    std::ranges::sort(crossings, {}, &Winding::shell);
+    Windings out;
+    for (const Winding& c : crossings) {
+        if (out.empty() || out.back().shell != c.shell) {
+            out.push_back(c);
+        } else {
+            out.back().number += c.number;
+        }
+    }
+    return out;
 }
 
 }  // namespace trisect::detail

@@ -36,11 +36,22 @@ public:
     /// facets along the shortest way out of the mesh along an axis.
     [[nodiscard]] std::optional<int> winding_outside(std::uint32_t shell,
                                                      std::span<const Triangle> own);
+    /// The other shells that wind around it, by number. Nothing as above.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> shells_around(
+        std::uint32_t shell, std::span<const Triangle> own);
 
 private:
     struct Ray;
     [[nodiscard]] Ray shortest_way_out(const std::array<LatticePoint, 3>& own) const;
-    [[nodiscard]] std::optional<int> winding_along(const Ray& ray, std::uint32_t without);
+    struct Winding {
+        std::uint32_t shell;
+        int number;
+    };
+    using Windings = std::vector<Winding>;
+    // Of all other shells that the ray meets, by number.
+    [[nodiscard]] std::optional<Windings> windings_outside(std::uint32_t shell,
+                                                           std::span<const Triangle> own);
+    [[nodiscard]] std::optional<Windings> windings_along(const Ray& ray, std::uint32_t without);
 
     std::span<const LatticePoint> points_;
     std::span<const Triangle> triangles_;
