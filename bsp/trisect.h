@@ -13,6 +13,7 @@
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/io/write_mesh.h>
 #include <trisect/brep/measure.h>
+#include <trisect/brep/mend/mend.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/cone.h>

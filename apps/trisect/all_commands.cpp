@@ -9,6 +9,7 @@ SubCommands all_commands() {
     out.push_back(std::make_unique<BooleanCommands>());
     out.push_back(command_with(add_info_command, run_info));
     out.push_back(command_with(add_check_command, run_check));
+    out.push_back(command_with(add_mend_command, run_mend));
     out.push_back(command_with(add_diff_command, run_diff));
     out.push_back(command_with(add_verify_command, run_verify));
     out.push_back(command_with(add_corpus_command, run_corpus));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// union, intersection, difference and xor of two or more meshes. The whole formula is evaluated in
-// one pass; difference is A minus all the others.
+// union, intersection, difference and xor of two or more meshes, and resolve, the union of one. The
+// whole formula is evaluated in one pass; difference is A minus all the others.
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/brep/exact_mesh.h>
 #include <trisect/brep/io/exact_boundary.h>
@@ -242,14 +242,7 @@ std::string remarks_of(const Session& session, const BooleanOptions& options,
     return out + fmt::format("{:<13}{:.3f} s", "time", total);
 }
 
-CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOptions& options) {
-    CLI::App* command = app.add_subcommand(name, help);
-    command
-        ->add_option(
-            "A B", options.inputs,
-            "mesh files, exact boundaries (.exact) or native files (.trisect), two or more")
-        ->required()
-        ->expected(2, 1 << 20);
+void add_result_options(CLI::App* command, BooleanOptions& options) {
     command
         ->add_option(
             "-o,--output", options.output,
@@ -274,9 +267,30 @@ CLI::App* add_one(CLI::App& app, const char* name, const char* help, BooleanOpti
                       "keep materials, textures, texture coordinates, normals and colours of "
                       "corners of OBJ, PLY, "
                       "GLB and 3MF, in an output of one of these");
-    add_slab_options(*command, options);
     add_operand_options(*command, options.operands);
-    return command;
+}
+
+void add_one(CLI::App& app, const char* name, const char* help, BooleanOptions& options) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command
+        ->add_option(
+            "A B", options.inputs,
+            "mesh files, exact boundaries (.exact) or native files (.trisect), two or more")
+        ->required()
+        ->expected(2, 1 << 20);
+    add_result_options(command, options);
+    add_slab_options(*command, options);
+}
+
+void add_resolve(CLI::App& app, BooleanOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "resolve", "the points that a mesh winds around, one that meets itself too");
+    command
+        ->add_option("A", options.inputs,
+                     "mesh file, exact boundary (.exact) or native file (.trisect)")
+        ->required()
+        ->expected(1);
+    add_result_options(command, options);
 }
 
 }  // namespace
@@ -286,6 +300,7 @@ void add_boolean_commands(CLI::App& app, BooleanOptions& options) {
     add_one(app, "intersection", "points in all of the inputs", options);
     add_one(app, "difference", "points in the first input and in none of the others", options);
     add_one(app, "xor", "points in an odd number of the inputs", options);
+    add_resolve(app, options);
 }
 
 Outcome run_boolean(Session& session, const BooleanOptions& options) {

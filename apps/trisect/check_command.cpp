@@ -27,6 +27,7 @@
 #include "page_entities.h"
 #include "report_json.h"
 #include "values.h"
+#include "way_out.h"
 
 namespace trisect::app {
 namespace {
@@ -43,6 +44,7 @@ std::string answer_text(const ValidationReport& report, std::span<const FileRema
     }
     if (!report.empty()) out += report.to_string();
     if (!out.empty() && out.back() != '\n') out += '\n';
+    out += ways_out_text(report);
     return out + fmt::format("{}: {}; {} errors, {} warnings, {} remarks\n", name,
                              report.is_solid() ? "a solid" : "not a solid",
                              report.count(Severity::Error), report.count(Severity::Warning),
@@ -107,6 +109,14 @@ void write_page(Session& session, const CheckOptions& options, PageShape shape,
     });
 }
 
+Json ways_out_json(const ValidationReport& report) {
+    Json out = Json::object();
+    for (std::size_t k = 0; k < defect_kind_count; ++k)
+        if (const auto kind = static_cast<DefectKind>(k); report.count(kind) != 0)
+            out[std::string(name_of(kind))] = way_out(kind);
+    return out;
+}
+
 }  // namespace
 
 void add_check_command(CLI::App& app, CheckOptions& options) {
@@ -148,6 +158,7 @@ Outcome run_check(Session& session, const CheckOptions& options) {
     out.document["warnings"] = report.count(Severity::Warning);
     out.document["counts"] = defect_counts_json(report);
     out.document["defects"] = defects_json(report);
+    out.document["ways_out"] = ways_out_json(report);
     out.document["remarks"] = remarks_json(remarks);
     out.document["lattice"] = lattice_json(lattice);
     out.document["seconds"] = session.seconds();

@@ -35,7 +35,7 @@ template <class Options>
     return std::make_unique<CommandWith<Options>>(add, run);
 }
 
-/// union, intersection, difference, xor: they differ in the name alone.
+/// union, intersection, difference, xor and resolve: they differ in the name alone.
 class BooleanCommands final : public SubCommand {
 public:
     void declare(CLI::App& app) override { add_boolean_commands(app, options_); }

@@ -13,7 +13,7 @@
 
 namespace trisect::app {
 
-/// union, intersection, difference, xor.
+/// union, intersection, difference, xor, and resolve, the union of one input.
 void add_boolean_commands(CLI::App& app, BooleanOptions& options);
 [[nodiscard]] Outcome run_boolean(Session& session, const BooleanOptions& options);
 
@@ -22,6 +22,9 @@ void add_info_command(CLI::App& app, InfoOptions& options);
 
 void add_check_command(CLI::App& app, CheckOptions& options);
 [[nodiscard]] Outcome run_check(Session& session, const CheckOptions& options);
+
+void add_mend_command(CLI::App& app, MendCommandOptions& options);
+[[nodiscard]] Outcome run_mend(Session& session, const MendCommandOptions& options);
 
 void add_diff_command(CLI::App& app, DiffOptions& options);
 [[nodiscard]] Outcome run_diff(Session& session, const DiffOptions& options);

@@ -9,6 +9,7 @@
 
 #include "mesh_files.h"
 #include "report_json.h"
+#include "way_out.h"
 
 namespace trisect::app {
 namespace {
@@ -47,6 +48,7 @@ Json failure_document(const Failure& failure) {
         error["offset"] = failure.place.offset;
     }
     if (!failure.defects.is_null()) error["defects"] = failure.defects;
+    if (!failure.hint.empty()) error["hint"] = failure.hint;
     Json document;
     document["schema"] = "trisect.error/1";
     document["error"] = std::move(error);
@@ -63,11 +65,16 @@ Failure current_failure() {
     try {
         throw;
     } catch (const InvalidSolid& e) {
-        return {static_cast<int>(e.code()), e.what(), {}, defects_json(e.report())};
+        return {static_cast<int>(e.code()), e.what(), {},
+                defects_json(e.report()),   false,    way_out_hint(e.report())};
     } catch (const OperandError& e) {
         const bool has_defects = !e.report().empty();
-        return {static_cast<int>(e.code()), e.what(), FilePlace{e.file(), 0, 0, 0},
-                has_defects ? defects_json(e.report()) : Json()};
+        return {static_cast<int>(e.code()),
+                e.what(),
+                FilePlace{e.file(), 0, 0, 0},
+                has_defects ? defects_json(e.report()) : Json(),
+                false,
+                e.hint()};
     } catch (const InputError& e) {
         return {static_cast<int>(e.code()), e.what(), e.place(), {}, e.place().line == 0};
     } catch (const CsgError& e) {
@@ -92,6 +99,7 @@ std::string document_text(const Json& document) {
 void report_failure(Console& console, bool json, const Failure& failure) noexcept {
     try {
         console.complain("trisect: error: " + failure.message);
+        if (!failure.hint.empty()) console.complain("trisect: hint: " + failure.hint);
         if (json) console.print(document_text(failure_document(failure)));
     } catch (...) {
         return;  // nobody is listening any more

@@ -21,6 +21,7 @@ struct Failure {
     FilePlace place;          ///< an empty file name when there is none
     Json defects;             ///< of an input that is no solid; otherwise null
     bool has_offset = false;  ///< the place is a byte of a binary file
+    std::string hint = {};    ///< what may help; empty: nothing to say
 };
 
 /// \pre called while an exception is being handled.

@@ -12,8 +12,8 @@
 
 namespace trisect::app {
 
-/// \pre operation is union, intersection, difference or xor; there is an operand. difference takes
-/// all the others from the first one.
+/// \pre operation is union, intersection, difference or xor, or there is one operand, which is then
+/// the formula. difference takes all the others from the first one.
 [[nodiscard]] Expression formula(const std::string& operation,
                                  const std::vector<Operand>& operands);
 

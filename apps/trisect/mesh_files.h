@@ -27,14 +27,20 @@ namespace trisect::app {
 class OperandError : public Error {
 public:
     OperandError(ErrorCode code, std::string file, const std::string& message,
-                 ValidationReport report = ValidationReport())
-        : Error(code, file + ": " + message), file_(std::move(file)), report_(std::move(report)) {}
+                 ValidationReport report = ValidationReport(), std::string hint = {})
+        : Error(code, file + ": " + message),
+          file_(std::move(file)),
+          report_(std::move(report)),
+          hint_(std::move(hint)) {}
     [[nodiscard]] const std::string& file() const noexcept { return file_; }
     [[nodiscard]] const ValidationReport& report() const noexcept { return report_; }
+    /// What may help.
+    [[nodiscard]] const std::string& hint() const noexcept { return hint_; }
 
 private:
     std::string file_;
     ValidationReport report_;
+    std::string hint_;
 };
 
 /// Whether a file holds an exact boundary (brep/io/exact_boundary.h): by the extension, as for

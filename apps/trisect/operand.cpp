@@ -18,6 +18,7 @@
 #include "mesh_files.h"
 #include "parallel_each.h"
 #include "report_json.h"
+#include "way_out.h"
 
 namespace trisect::app {
 namespace {
@@ -27,13 +28,16 @@ void require_solid(const ImportedMesh& imported, const std::string& name,
     const ImportReport& report = imported.report;
     if (!report.closed) {
         const InvalidSolid reason(report.defects, "the boundary is not closed");
-        throw OperandError(reason.code(), name, reason.what(), report.defects);
+        throw OperandError(reason.code(), name, reason.what(), report.defects,
+                           way_out_hint(report.defects));
     }
     // With the non-zero rule a boundary that is turned over bounds the same set.
     if (report.inside_out && options.winding == EvaluateOptions::Winding::Positive) {
         throw OperandError(ErrorCode::InvalidSolid, name,
                            "the boundary is inside out (--winding nonzero accepts it)",
-                           report.defects);
+                           report.defects,
+                           "'trisect mend --shells' turns it over, 'trisect resolve --winding "
+                           "nonzero' takes it as it is");
     }
 }
 

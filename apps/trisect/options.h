@@ -6,6 +6,7 @@
 
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/io/mesh_format.h>
+#include <trisect/brep/mend/mend.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/first_contact.h>
 
@@ -200,6 +201,13 @@ struct MillOptions {
     double checkpoint_seconds = 2;
     std::uint64_t frames = 60;            ///< of the page
     std::uint64_t page_bytes = 60 << 20;  ///< the page has fewer frames if it would be larger
+};
+
+struct MendCommandOptions {
+    std::string input;
+    std::string output;
+    MendOptions what;
+    std::uint64_t places = 100;  ///< listed entries of each kind
 };
 
 struct ConvertOptions {

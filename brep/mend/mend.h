@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mending: turning faces and shells, closing seams, dropping duplicates, each only where asked for.
+// Mending of meshes that bound no solid, where it is asked for.
 //
 // What keeps a mesh from bounding a solid is often small: faces that are turned over, two sheets
 // that run along one seam with corners that differ in the last digits. Each kind of mending has its

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// NearSearch: which edges or points have boxes within a distance of a point.
+// NearSearch: edges, or points, near a point.
 #pragma once
 
 #include <array>

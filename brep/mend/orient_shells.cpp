@@ -15,8 +15,8 @@
 #include <trisect/brep/contact/triangle_contact.h>
 #include <trisect/brep/import/edge_table.h>
 #include <trisect/brep/import/prepared_mesh.h>
+#include <trisect/brep/import/shell_finder.h>
 #include <trisect/brep/mend/orient_faces.h>
-#include <trisect/brep/validate/shell_finder.h>
 #include <trisect/brep/validate/shell_nesting.h>
 #include <trisect/brep/validate/triangle_tree.h>
 #include <trisect/kernel/error.h>

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/brep/import/shell_finder.h>
 #include <trisect/brep/validate/checked_mesh.h>
-#include <trisect/brep/validate/shell_finder.h>
 #include <trisect/brep/validate/shell_nesting.h>
 #include <trisect/brep/validate/triangle_tree.h>
 

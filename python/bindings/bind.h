@@ -12,6 +12,7 @@ namespace py = pybind11;
 void bind_errors(py::module_& m);
 void bind_limits(py::module_& m);
 void bind_check(py::module_& m);
+void bind_mend(py::module_& m);
 void bind_pose(py::module_& m);
 void bind_solid_type(py::module_& m);
 void bind_formula(py::module_& m);

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_trisect, m) {
     bind_errors(m);
     bind_limits(m);
     bind_check(m);
+    bind_mend(m);
     bind_pose(m);
     bind_solid_type(m);
     bind_formula(m);

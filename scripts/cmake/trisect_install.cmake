@@ -102,6 +102,16 @@ set(private_headers
     brep/curved/control_net.h
     brep/primitives/cap.h
     brep/primitives/circle.h
+    brep/mend/divide_edges.h
+    brep/mend/duplicates.h
+    brep/mend/exact_distance.h
+    brep/mend/fill_holes.h
+    brep/mend/join_vertices.h
+    brep/mend/mending_mesh.h
+    brep/mend/near_search.h
+    brep/mend/open_edges.h
+    brep/mend/orient_faces.h
+    brep/mend/orient_shells.h
     brep/validate/checked_mesh.h
     brep/contact/contact_filter.h
     brep/validate/manifold_mesh.h
@@ -146,6 +156,7 @@ foreach(
         brep/curved
         brep/interop
         brep/io
+        brep/mend
         brep/primitives
         brep/validate
         bsp

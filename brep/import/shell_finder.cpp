@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/brep/validate/shell_finder.h>
+#include <trisect/brep/import/shell_finder.h>
 
 #include <algorithm>
 #include <limits>
