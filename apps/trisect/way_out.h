@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Ways out of each kind of defect.
+// Advice on each kind of defect.
 // docs/invalid_solid.md has more on each.
 #pragma once
 

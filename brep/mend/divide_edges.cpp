@@ -176,25 +176,24 @@ void divide_near(MendingMesh& mesh, const DistanceBound& bound, Lattice lattice,
 void leave_out_degenerate(MendingMesh& mesh, MendReport& report) {
     LoopTriangulator triangulator(mesh.points);
     std::vector<std::uint32_t> loop;
-    const auto is_degenerate = [&](std::span<const std::uint32_t> whole) {
-        if (whole.size() == 3)
-            return are_collinear(mesh.points[whole[0]], mesh.points[whole[1]],
-                                 mesh.points[whole[2]]);
-        loop.assign(whole.begin(), whole.end());
-        loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
-        while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-        return loop.size() < 3 || triangulator.shape(loop).degenerate;
-    };
     MendingMesh out;
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         check_stop();
-        if (is_degenerate(mesh.loop(f))) {
-            report.degenerate_faces.push_back(mesh.face_source[f]);
+        const auto whole = mesh.loop(f);
+        loop.assign(whole.begin(), whole.end());
+        loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
+        while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+        const bool has_area =
+            loop.size() == 3
+                ? !are_collinear(mesh.points[loop[0]], mesh.points[loop[1]], mesh.points[loop[2]])
+                : loop.size() > 3 && !triangulator.shape(loop).degenerate;
+        if (has_area) {
+            out.add_face(loop, mesh.face_source[f]);
         } else {
-            out.add_face(mesh.loop(f), mesh.face_source[f]);
+            report.degenerate_faces.push_back(mesh.face_source[f]);
         }
     }
-    if (out.face_count() < mesh.face_count()) mesh.take_faces(std::move(out));
+    mesh.take_faces(std::move(out));
 }
 
 }  // namespace trisect::detail

@@ -20,7 +20,8 @@ void divide_exactly(MendingMesh& mesh, Lattice lattice, MendReport& report);
 void divide_near(MendingMesh& mesh, const DistanceBound& bound, Lattice lattice,
                  MendReport& report);
 
-/// Leaves out faces whose corners are on one line, and notes them.
+/// Leaves out faces whose corners are on one line, and notes them. A corner that a loop names twice
+/// in succession stays once.
 void leave_out_degenerate(MendingMesh& mesh, MendReport& report);
 
 }  // namespace trisect::detail

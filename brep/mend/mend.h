@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Mending of meshes that bound no solid, where it is asked for.
+// Mending of meshes that bound no solid, by kinds.
 //
 // What keeps a mesh from bounding a solid is often small: faces that are turned over, two sheets
 // that run along one seam with corners that differ in the last digits. Each kind of mending has its

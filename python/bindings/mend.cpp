@@ -61,7 +61,7 @@ py::object faces_of(const PolygonMesh& mesh) {
         py::list out;
         for (std::size_t g = 0; g < mesh.face_count(); ++g)
             out.append(std::vector<std::uint32_t>(mesh.face(g).begin(), mesh.face(g).end()));
-        return std::move(out);
+        return py::object(std::move(out));
     }
     return adopt<std::int32_t>(
         std::vector<std::uint32_t>(mesh.corners),
