@@ -27,9 +27,9 @@ namespace {
 
 using detail::MendingMesh;
 
-MendingMesh welded(const PolygonMesh& mesh, const MendOptions& options, LatticeReport& lattice) {
-    const auto points =
-        detail::points_on_lattice(mesh.points, options.lattice, Fractions::Kept, lattice);
+MendingMesh welded(const PolygonMesh& mesh, const MendOptions& options, Fractions fractions,
+                   LatticeReport& lattice) {
+    const auto points = detail::points_on_lattice(mesh.points, options.lattice, fractions, lattice);
     detail::PreparedMesh prepared = detail::weld_mesh(mesh, points);
     MendingMesh out;
     out.points = std::move(prepared.points);
@@ -39,6 +39,44 @@ MendingMesh welded(const PolygonMesh& mesh, const MendOptions& options, LatticeR
     out.face_source.resize(mesh.face_count());
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) out.face_source[f] = f;
     return out;
+}
+
+bool is_open(const MendingMesh& mesh, Lattice lattice) {
+    MendReport found;
+    detail::report_open(mesh, lattice, found);
+    return !found.open.empty();
+}
+
+// As import does: what only rounding closes is rounded.
+MendingMesh welded(const PolygonMesh& mesh, const MendOptions& options, LatticeReport& lattice) {
+    MendingMesh kept = welded(mesh, options, Fractions::Kept, lattice);
+    if (options.lattice || !is_open(kept, lattice.lattice)) return kept;
+    LatticeReport rounded_lattice;
+    MendingMesh rounded = welded(mesh, options, Fractions::Rounded, rounded_lattice);
+    if (rounded.points.size() == kept.points.size() || is_open(rounded, rounded_lattice.lattice))
+        return kept;
+    lattice = rounded_lattice;
+    return rounded;
+}
+
+// Vertices of different coordinates that are one on the lattice. \pre corners are as they were
+void note_welded(const PolygonMesh& given, const MendingMesh& mesh, MendReport& report) {
+    for (std::size_t i = 0; i < given.corners.size(); ++i) {
+        const std::uint32_t vertex = given.corners[i];
+        const std::uint32_t into = mesh.source_point[mesh.corners[i]];
+        const Point3d& a = given.points[vertex];
+        const Point3d& b = given.points[into];
+        if (a != b)
+            report.joined.push_back(
+                {vertex, into, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2])});
+    }
+    const auto less = [](const JoinedVertex& a, const JoinedVertex& b) {
+        return a.vertex < b.vertex;
+    };
+    std::ranges::sort(report.joined, less);
+    report.joined.erase(std::unique(report.joined.begin(), report.joined.end()),
+                        report.joined.end());
+    for (const JoinedVertex& j : report.joined) report.max_move = std::max(report.max_move, j.move);
 }
 
 void close_seams(MendingMesh& mesh, double distance, Lattice lattice, MendReport& report) {
@@ -114,6 +152,9 @@ MendedMesh mended(const PolygonMesh& mesh, const MendOptions& options) {
     MendReport& report = out.report;
     MendingMesh work = welded(mesh, options, report.lattice);
     const Lattice lattice = report.lattice.lattice;
+    const bool keeps = !options.seams && !options.drop_duplicates && !options.fill_planar_holes &&
+                       !options.lattice;
+    if (!keeps && !options.lattice) note_welded(mesh, work, report);
     detail::end_step();
     if (options.seams) close_seams(work, *options.seams, lattice, report);
     if (options.drop_duplicates) detail::drop_duplicates(work, report);
@@ -125,8 +166,6 @@ MendedMesh mended(const PolygonMesh& mesh, const MendOptions& options) {
     note_turned(work, turned, report);
     detail::report_open(work, lattice, report);
     out.source_of_face = work.face_source;
-    const bool keeps = !options.seams && !options.drop_duplicates && !options.fill_planar_holes &&
-                       !options.lattice;
     if (keeps) {
         keep_points(mesh, turned, out);
     } else {

@@ -140,11 +140,12 @@ struct MendedMesh {
 };
 
 /// In the order: seams, duplicates, holes, faces, shells. Decisions are exact, of coordinates on
-/// their lattice, which keeps all bits of sets that span at most 126 (the report says so); points
-/// of equal value are one vertex whatever their index. Coordinates of the outcome are coordinates
-/// that were given, to the bit, unless there is a lattice in the options. Where only faces and
-/// shells are turned, points, indices and the order of faces stay; otherwise points of equal value
-/// become one, and points of no face are left out.
+/// their lattice. As in import, that keeps all bits of sets that span at most 126, but rounds where
+/// only that closes the boundary; the report says so. Points of equal value are one vertex whatever
+/// their index. Coordinates of the outcome are coordinates that were given, to the bit, unless
+/// there is a lattice in the options. Where only faces and shells are turned, points, indices and
+/// the order of faces stay; otherwise points of equal value become one, and points of no face are
+/// left out.
 ///
 /// Cost: O(n log n), some microseconds a triangle; most for seams along which many vertices lie
 /// within the distance of each other. \throw UsageError for indices out of range or a distance that

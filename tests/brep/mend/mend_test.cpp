@@ -101,6 +101,26 @@ TEST(Mended, ALatticeRoundsFirst) {
     EXPECT_FALSE(out.report.lattice.lossless);
 }
 
+// A cube with coordinates that differ in bits which only a fine lattice has: import rounds it.
+TEST(Mended, WhatOnlyRoundingClosesIsRounded) {
+    PolygonMesh mesh = test::flipped(cuboid());
+    mesh.points.push_back({1e-40, 0, 0});  // beside vertex 0
+    mesh.corners[0] = 8;
+    ASSERT_EQ(mesh.face(0)[0], 8U);
+    mesh.points[8] = mesh.points[test::flipped(cuboid()).corners[0]];
+    mesh.points[8][0] += mesh.points[8][0] == 0 ? 1e-40 : 0;
+    ASSERT_EQ(mesh.points[8][0], 1e-40);
+    MendOptions options;
+    options.orient_shells = true;
+    options.drop_duplicates = true;
+    const MendedMesh out = mended(mesh, options);
+    EXPECT_EQ(out.report.turned_shells, 1U);
+    EXPECT_EQ(out.report.joined.size(), 1U);
+    EXPECT_EQ(out.report.max_move, 1e-40);
+    EXPECT_FALSE(out.report.lattice.lossless);
+    EXPECT_TRUE(validate(out.mesh).empty()) << test::findings(out.mesh);
+}
+
 // All kinds in one mesh, in any order of its faces: the same outcome, and one that is clean.
 TEST(Mended, AllTogether) {
     const PolygonMesh ball = test::in_triangles(make_uv_sphere(1, 20, 11));
