@@ -150,10 +150,17 @@ void divide(MendingMesh& mesh, std::vector<Division>&& divisions, Lattice lattic
 
 }  // namespace
 
-void divide_exactly(MendingMesh& mesh, Lattice lattice, MendReport& report) {
+void divide_exactly(MendingMesh& mesh, const DistanceBound& ends, Lattice lattice,
+                    MendReport& report) {
     std::vector<Division> divisions;
+    const auto is_near = [&](std::uint32_t a, std::uint32_t b) {
+        return ends.covers(squared_distance(mesh.points[a], mesh.points[b]));
+    };
     for_each_division(mesh, unmatched_edges(mesh), DistanceBound(0, lattice),
-                      [&](const Division& d) { divisions.push_back(d); });
+                      [&](const Division& d) {
+                          if (!is_near(d.vertex, d.low) && !is_near(d.vertex, d.high))
+                              divisions.push_back(d);
+                      });
     divide(mesh, std::move(divisions), lattice, report);
 }
 

@@ -10,9 +10,11 @@
 namespace trisect::detail {
 
 /// Puts vertices that lie exactly inside of edges whose uses do not cancel, and are ends of such
-/// edges, into all of these. What the faces cover stays the same. O(n log n) for n such edges of
-/// which few meet. \throw LimitError for many
-void divide_exactly(MendingMesh& mesh, Lattice lattice, MendReport& report);
+/// edges, into all of these. What the faces cover stays the same. Those that are within `ends` of
+/// an end stay out: they are to be joined with it. O(n log n) for n such edges of which few meet.
+/// \throw LimitError for many
+void divide_exactly(MendingMesh& mesh, const DistanceBound& ends, Lattice lattice,
+                    MendReport& report);
 
 /// Puts each end of an open edge that lies within the distance of others, and beside the inside of
 /// them, into the nearest one, unless a face of it has the vertex. Divided faces are cut into

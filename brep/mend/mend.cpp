@@ -82,12 +82,12 @@ void note_welded(const PolygonMesh& given, const MendingMesh& mesh, MendReport& 
 void close_seams(MendingMesh& mesh, double distance, Lattice lattice, MendReport& report) {
     const detail::DistanceBound bound(distance, lattice);
     detail::leave_out_degenerate(mesh, report);
-    detail::divide_exactly(mesh, lattice, report);
+    detail::divide_exactly(mesh, bound, lattice, report);
     if (distance > 0) {
         detail::end_step();
         detail::join_near_vertices(mesh, bound, lattice, report);
         detail::leave_out_degenerate(mesh, report);
-        detail::divide_exactly(mesh, lattice, report);
+        detail::divide_exactly(mesh, detail::DistanceBound(0, lattice), lattice, report);
         detail::end_step();
         detail::divide_near(mesh, bound, lattice, report);
     }

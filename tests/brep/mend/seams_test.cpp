@@ -106,6 +106,33 @@ TEST(CloseSeams, ChainsDoNotMoveFar) {
         EXPECT_LE(std::abs(mesh.points[j.vertex][0] - mesh.points[j.into][0]), 1.5);
 }
 
+// Facets whose digits are cut off or rounded up at random: copies of a corner lie exactly on edges
+// beside it, and must not go into them before they are joined.
+TEST(CloseSeams, OfFacetsWithFewDigits) {
+    PolygonMesh whole = test::in_triangles(cuboid({0, 0, 0}, {16, 16, 16}));
+    append(whole, test::in_triangles(make_uv_sphere(4, 12, 7)));
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        std::mt19937 random(seed);
+        const double unit = 0x1p-10;
+        PolygonMesh soup;
+        for (std::size_t f = 0; f < whole.face_count(); ++f) {
+            std::vector<std::uint32_t> loop;
+            for (const std::uint32_t c : whole.face(f)) {
+                Point3d p = whole.points[c];
+                for (double& x : p)
+                    x = (std::floor(x / unit) + static_cast<double>(random() % 2)) * unit;
+                loop.push_back(static_cast<std::uint32_t>(soup.points.size()));
+                soup.points.push_back(p);
+            }
+            soup.add_face(loop);
+        }
+        const MendedMesh out = mended(soup, seams(1.75 * unit));
+        EXPECT_TRUE(out.report.is_closed());
+        EXPECT_EQ(out.mesh.points.size(), whole.points.size());
+        EXPECT_EQ(out.mesh.face_count(), whole.face_count());
+    }
+}
+
 TEST(CloseSeams, VerticesOfOneFaceStayApart) {
     // All edges are shorter than the distance; diagonals are not.
     const PolygonMesh open = test::without_face(cuboid(), 1);
