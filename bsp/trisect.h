@@ -58,6 +58,7 @@
 #include <trisect/bsp/modelling/minkowski.h>
 #include <trisect/bsp/modelling/offset.h>
 #include <trisect/bsp/modelling/projection.h>
+#include <trisect/bsp/modelling/slices.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>

@@ -19,6 +19,7 @@ SubCommands all_commands() {
     out.push_back(command_with(add_locate_command, run_locate));
     out.push_back(command_with(add_sweep_command, run_sweep));
     out.push_back(command_with(add_section_command, run_section));
+    out.push_back(command_with(add_slice_command, run_slice));
     out.push_back(command_with(add_view_command, run_view));
     out.push_back(command_with(add_render_command, run_render));
     out.push_back(command_with(add_tree_command, run_tree));

@@ -168,9 +168,9 @@ NamedCommands declare(CLI::App& app, CommonOptions& common, const SubCommands& c
 /// The arguments, in the reverse order that CLI11 wants. A value that begins with a minus sign
 /// ("--translate -.5,0,0") is tied to its option, or it would be taken for an option itself.
 std::vector<std::string> prepared_arguments(int argc, char** argv) {
-    static constexpr std::string_view numeric[] = {"--translate", "--rotate", "--scale",
-                                                   "--lattice",   "--plane",  "--section",
-                                                   "--view",      "--point",  "--grid"};
+    static constexpr std::string_view numeric[] = {
+        "--translate", "--rotate", "--scale", "--lattice", "--plane",   "--section", "--view",
+        "--point",     "--grid",   "--from",  "--to",      "--heights", "--step"};
     std::vector<std::string> arguments;
     for (int i = 1; i < argc; ++i) {
         std::string argument = argv[i];

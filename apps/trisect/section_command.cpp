@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// section A --plane P -o S.svg: the points of a solid in a plane, as loops. The loops are exact;
-// what is printed and drawn are their corners, each coordinate rounded once.
+// section A --plane P -o S.svg|S.dxf: the points of a solid in a plane, as loops. The loops are
+// exact; what is printed and drawn are their corners, each coordinate rounded once.
 #include <trisect/bsp/brep_index.h>
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "commands.h"
+#include "layer_stack.h"
 #include "output_name.h"
 #include "queried_set.h"
 #include "section_drawing.h"
@@ -66,6 +69,19 @@ std::string drawing_of(const std::vector<SectionRegion>& regions, const PlaneFra
     return svg.document();
 }
 
+bool is_dxf(const std::string& name) {
+    const std::string extension = std::filesystem::path(name).extension().string();
+    return extension == ".dxf" || extension == ".DXF";
+}
+
+/// Outlines flat on one layer, as the drawing has them.
+std::string dxf_of(const std::vector<SectionRegion>& regions, const PlaneFrame& frame) {
+    LayerStack stack;
+    Layer& layer = stack.layers.emplace_back();
+    for (const SectionRegion& region : regions) layer.regions.push_back(frame.loops(region));
+    return dxf_of_layers(stack);
+}
+
 }  // namespace
 
 void add_section_command(CLI::App& app, SectionOptions& options) {
@@ -79,13 +95,16 @@ void add_section_command(CLI::App& app, SectionOptions& options) {
         ->required()
         ->type_name("A,B,C,D|z=NUMBER|z");
     command
-        ->add_option("-o,--output", options.output,
-                     "drawing (SVG) in the coordinates of the plane; '-' is the standard output")
+        ->add_option(
+            "-o,--output", options.output,
+            "drawing (SVG or DXF) in the coordinates of the plane; '-' is the standard output, "
+            "as SVG")
         ->type_name("FILE");
 }
 
 Outcome run_section(Session& session, const SectionOptions& options) {
-    check_output_name(session, options.output, ".svg");
+    const bool writes_dxf = is_dxf(options.output);
+    check_output_name(session, options.output, writes_dxf ? ".dxf" : ".svg");
     check_outputs(session, {options.output}, Answer::Printed);
     session.plan(5);
     const QueriedSet set = read_set(session, options.set);
@@ -96,8 +115,10 @@ Outcome run_section(Session& session, const SectionOptions& options) {
     const std::vector<SectionRegion> regions =
         session.stage("section", [&] { return index.section(coefficients); });
     if (!options.output.empty()) {
-        session.stage("write",
-                      [&] { session.write_output(options.output, drawing_of(regions, frame)); });
+        session.stage("write", [&] {
+            session.write_output(options.output,
+                                 writes_dxf ? dxf_of(regions, frame) : drawing_of(regions, frame));
+        });
     }
     const Totals totals = totals_of(regions, frame);
     Outcome out;

@@ -3,9 +3,12 @@
 #include <trisect/bsp/flat/flat_mesh.h>
 
 #include <algorithm>
+#include <numeric>
 
+#include <trisect/brep/face/loops_below.h>
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/flat/flat_figure.h>
+#include <trisect/kernel/contract.h>
 #include <trisect/kernel/predicates.h>
 
 namespace trisect::detail {
@@ -18,12 +21,49 @@ std::vector<IndexLoop> flat_loops(const FlatRegion& region) {
     return loops;
 }
 
-std::vector<std::array<std::uint32_t, 3>> flat_triangles(const FlatRegion& region) {
-    if (region.is_empty()) return {};
+namespace {
+
+std::vector<Point> flat_points(const FlatRegion& region) {
     std::vector<Point> points;
     points.reserve(region.vertices.size());
     for (const FlatRegion::Vertex& v : region.vertices) points.push_back(flat_point(region, v));
-    return triangulate(Plane::axis_aligned(2, 1, 0), points, flat_loops(region));
+    return points;
+}
+
+}  // namespace
+
+// Loops of a resolved region are linked as PlanarLoops links them, which numbers corners loop by
+// loop.
+std::vector<std::vector<std::uint32_t>> flat_regions(const FlatRegion& region) {
+    if (region.is_empty()) return {};
+    if (region.loop_count() == 1) return {{0}};
+    const auto loop_of = [&](std::uint32_t corner) {
+        const auto after = std::ranges::upper_bound(region.loop_begin, corner);
+        return static_cast<std::uint32_t>(after - region.loop_begin.begin() - 1);
+    };
+    const std::vector<Point> points = flat_points(region);
+    const std::vector<IndexLoop> loops = flat_loops(region);
+    const PlanarLoops figure(Plane::axis_aligned(2, 1, 0), points, loops);
+    std::vector<std::uint32_t> first(figure.outlines().begin(), figure.outlines().end());
+    std::vector<std::vector<std::uint32_t>> out;
+    for (const std::uint32_t corner : first) out.push_back({loop_of(corner)});
+    if (figure.holes().empty()) return out;
+    first.insert(first.end(), figure.holes().begin(), figure.holes().end());
+    const std::vector<std::uint32_t> below = loops_below(figure, first);
+    std::vector<std::uint32_t> region_of(first.size());
+    std::iota(region_of.begin(), region_of.end(), 0U);
+    for (std::size_t i = out.size(); i < first.size(); ++i) {
+        // Holes are ordered by their first places, so that of the loop below is known.
+        TRISECT_EXPECTS(below[i] < i, "a hole inside an outline");
+        region_of[i] = region_of[below[i]];
+        out[region_of[i]].push_back(loop_of(first[i]));
+    }
+    return out;
+}
+
+std::vector<std::array<std::uint32_t, 3>> flat_triangles(const FlatRegion& region) {
+    if (region.is_empty()) return {};
+    return triangulate(Plane::axis_aligned(2, 1, 0), flat_points(region), flat_loops(region));
 }
 
 std::vector<std::array<double, 2>> flat_coordinates(const FlatRegion& region) {

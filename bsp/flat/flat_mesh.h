@@ -18,6 +18,9 @@ namespace trisect::detail {
 /// Loops of a resolved region, of its vertices; the inside is on their left.
 [[nodiscard]] std::vector<IndexLoop> flat_loops(const FlatRegion& region);
 
+/// Connected pieces of a resolved region by numbers of its loops: outline, holes.
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> flat_regions(const FlatRegion& region);
+
 /// Triangles of a resolved region, over its vertices, counter-clockwise.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> flat_triangles(const FlatRegion& region);
 

@@ -9,13 +9,16 @@
 #include <trisect/bsp/modelling/mesh_section.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
-#include <unordered_map>
+#include <utility>
 
 #include <trisect/brep/measure/double_pair.h>
 #include <trisect/brep/measure/exact_values.h>
+#include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -40,10 +43,6 @@ std::array<mpq_class, 3> exact_point(const ExactMesh& mesh, std::uint32_t v) {
     return out;
 }
 
-std::int8_t sign_between(double value, double height) {
-    return static_cast<std::int8_t>(value > height ? 1 : value < height ? -1 : 0);
-}
-
 double nearest(const mpq_class& v) {
     return to_rational(v.get_num(), v.get_den()).to_double() + 0.0;
 }
@@ -56,53 +55,144 @@ std::optional<double> nearest(const DoublePair& v, double error) {
     return v.high + 0.0;
 }
 
+// The sum of |n p| over the axes, which bounds errors of n . p.
+double size_of_level(const Point3d& normal, const Point3d& p) {
+    return std::fabs(normal[0] * p[0]) + std::fabs(normal[1] * p[1]) + std::fabs(normal[2] * p[2]);
+}
+
 }  // namespace
 
-MeshSection::MeshSection(const PolygonMesh& mesh, double height)
-    : height_(height), near_(mesh.points), is_double_(mesh.points.size(), 1) {
+/// Corners of a mesh as fractions.
+struct SectionNumbers {
+    static std::array<mpq_class, 3> corner(const MeshSection& mesh, std::uint32_t v) {
+        if (mesh.is_double_[v] == 0) return exact_point(*mesh.exact_, v);
+        const Point3d& p = mesh.near_[v];
+        return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])};
+    }
+    static mpq_class level(const SliceFrame& frame, const std::array<mpq_class, 3>& p) {
+        const Point3d& n = frame.normal();
+        if (frame.is_axis()) return n[frame.along()] * p[frame.along()];
+        return mpq_class(n[0]) * p[0] + mpq_class(n[1]) * p[1] + mpq_class(n[2]) * p[2];
+    }
+};
+
+MeshSection::MeshSection(const PolygonMesh& mesh, const SliceFrame& frame)
+    : frame_(frame), near_(mesh.points), is_double_(mesh.points.size(), 1) {
+    triangles_.reserve(mesh.face_count());
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto t = mesh.face(f);
         triangles_.push_back({t[0], t[1], t[2]});
     }
-    for (const Point3d& p : near_) side_.push_back(sign_between(p[2], height));
+    find_levels();
 }
 
-MeshSection::MeshSection(const ExactMesh& mesh, double height)
-    : height_(height),
+MeshSection::MeshSection(const ExactMesh& mesh, const SliceFrame& frame)
+    : frame_(frame),
       triangles_(mesh.triangles),
       near_(to_polygon_mesh(mesh).points),
       exact_(&mesh) {
-    for (std::uint32_t v = 0; v < near_.size(); ++v) {
-        is_double_.push_back(mesh.points[v].is_lattice() ? 1 : 0);
-        // The nearest double is on the same side, or in the plane.
-        std::int8_t side = sign_between(near_[v][2], height);
-        if (side == 0 && is_double_[v] == 0)
-            side = static_cast<std::int8_t>(
-                sgn(mpq_class(exact_point(mesh, v)[2] - mpq_class(height))));
-        side_.push_back(side);
+    is_double_.reserve(near_.size());
+    for (const Point& p : mesh.points) is_double_.push_back(p.is_lattice() ? 1 : 0);
+    find_levels();
+}
+
+// Three products, two sums and the rounding of points: less than 2^-50 of the size together.
+void MeshSection::find_levels() {
+    const std::size_t w = frame_.along();
+    const double sign = frame_.normal()[w];
+    level_.reserve(near_.size());
+    if (!frame_.is_axis()) error_.reserve(near_.size());
+    for (const Point3d& p : near_) {
+        if (frame_.is_axis()) {
+            level_.push_back(sign * p[w]);
+            continue;
+        }
+        const Point3d& n = frame_.normal();
+        const double level = n[0] * p[0] + n[1] * p[1] + n[2] * p[2];
+        const double error = 0x1p-49 * size_of_level(n, p) + 0x1p-1000;
+        const bool is_known = std::isfinite(level) && std::isfinite(error);
+        level_.push_back(is_known ? level : 0);
+        error_.push_back(is_known ? error : std::numeric_limits<double>::infinity());
     }
 }
 
-bool MeshSection::has_face_in_plane() const {
-    return std::ranges::any_of(triangles_, [&](const Triangle& t) {
-        return side_[t[0]] == 0 && side_[t[1]] == 0 && side_[t[2]] == 0;
+std::array<double, 2> MeshSection::range_of(std::uint32_t triangle) const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    std::array<double, 2> out{infinite, -infinite};
+    for (const std::uint32_t v : triangles_[triangle]) {
+        const double error = error_.empty() ? 0 : error_[v];
+        out = {std::min(out[0], level_[v] - error), std::max(out[1], level_[v] + error)};
+    }
+    return out;
+}
+
+// Along an axis the nearest double is on the same side, or in the plane.
+int MeshSection::side(std::uint32_t v, double height) const {
+    const double above = level_[v] - height;
+    if (error_.empty()) {
+        if (level_[v] != height) return level_[v] > height ? 1 : -1;
+        if (is_double_[v] != 0) return 0;
+    } else if (std::fabs(above) > error_[v] + 0x1p-52 * std::fabs(height)) {
+        return above > 0 ? 1 : -1;
+    }
+    return sgn(mpq_class(SectionNumbers::level(frame_, SectionNumbers::corner(*this, v)) -
+                         mpq_class(height)));
+}
+
+bool MeshSection::has_face_in(const SectionPlane& plane) const {
+    return std::ranges::any_of(plane.triangles, [&](std::uint32_t t) {
+        return std::ranges::all_of(triangles_[t],
+                                   [&](std::uint32_t v) { return side(v, plane.height) == 0; });
     });
 }
+
+/// Numbers for pairs of numbers, in the order in which they come.
+class PairNumbers {
+public:
+    /// For at most that many.
+    explicit PairNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 2)) {}
+
+    /// The number, and whether it is a new one.
+    std::pair<std::uint32_t, bool> find(std::uint32_t p, std::uint32_t q) {
+        const std::uint64_t key = std::uint64_t{p} << 32U | q;
+        std::size_t at = (key * 0x9e3779b97f4a7c15U) >> 20U & (slots_.size() - 1);
+        while (slots_[at].number != none) {
+            if (slots_[at].key == key) return {slots_[at].number, false};
+            at = (at + 1) & (slots_.size() - 1);
+        }
+        slots_[at] = {key, count_};
+        return {count_++, true};
+    }
+
+private:
+    struct Slot {
+        std::uint64_t key = 0;
+        std::uint32_t number = none;
+    };
+    std::vector<Slot> slots_;
+    std::uint32_t count_ = 0;
+};
 
 /// The corners of one section, by name.
 class SectionCorners {
 public:
-    SectionCorners(const MeshSection& mesh, MeshSection::Place place)
-        : mesh_(mesh), in_plane_(place == MeshSection::Place::Below ? 1 : -1) {}
+    SectionCorners(const MeshSection& mesh, const SectionPlane& plane, MeshSection::Place place)
+        : mesh_(mesh),
+          height_(plane.height),
+          in_plane_(place == MeshSection::Place::Below ? 1 : -1),
+          numbers_(2 * plane.triangles.size()) {}
 
     void add(const MeshSection::Triangle& t) {
+        const std::array<int, 3> at{mesh_.side(t[0], height_), mesh_.side(t[1], height_),
+                                    mesh_.side(t[2], height_)};
         std::uint32_t down = none;
         std::uint32_t up = none;
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t a = t[k];
-            const std::uint32_t b = t[(k + 1) % 3];
-            if (side(a) > 0 && side(b) < 0) down = number(b, a);
-            if (side(a) < 0 && side(b) > 0) up = number(a, b);
+            const std::size_t next = (k + 1) % 3;
+            const int from = at[k] == 0 ? in_plane_ : at[k];
+            const int to = at[next] == 0 ? in_plane_ : at[next];
+            if (from > 0 && to < 0) down = number(t[next], at[next], t[k], at[k]);
+            if (from < 0 && to > 0) up = number(t[k], at[k], t[next], at[next]);
         }
         if (down != up) sides_.push_back({down, up});
     }
@@ -115,6 +205,7 @@ public:
             if (place[n] == none) {
                 place[n] = static_cast<std::uint32_t>(out.corners.size());
                 out.corners.push_back(near_[n]);
+                out.is_exact = out.is_exact && is_exact(n);
             }
             return place[n];
         };
@@ -134,34 +225,36 @@ private:
         double error = 0;  // of a coordinate
     };
 
-    [[nodiscard]] int side(std::uint32_t v) const {
-        return mesh_.side_[v] == 0 ? in_plane_ : mesh_.side_[v];
-    }
-
-    std::uint32_t number(std::uint32_t below, std::uint32_t above) {
-        if (mesh_.side_[below] == 0) above = below;
-        if (mesh_.side_[above] == 0) below = above;
-        const auto [at, is_new] = numbers_.try_emplace(std::uint64_t{below} << 32U | above,
-                                                       static_cast<std::uint32_t>(ends_.size()));
+    std::uint32_t number(std::uint32_t below, int side_below, std::uint32_t above, int side_above) {
+        if (side_below == 0) above = below;
+        if (side_above == 0) below = above;
+        const auto [n, is_new] = numbers_.find(below, above);
         if (is_new) {
             ends_.push_back({below, above});
-            near_.push_back(rounded(at->second));
+            near_.push_back(rounded(n));
         }
-        return at->second;
+        return n;
     }
 
-    [[nodiscard]] std::array<mpq_class, 3> exact_end(std::uint32_t v) const {
-        if (mesh_.is_double_[v] == 0) return exact_point(*mesh_.exact_, v);
-        const Point3d& p = mesh_.near_[v];
-        return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])};
-    }
     [[nodiscard]] Numbers exact(std::uint32_t n) const {
         const auto [below, above] = ends_[n];
-        const std::array<mpq_class, 3> a = exact_end(below);
-        if (below == above) return {a[0], a[1]};
-        const std::array<mpq_class, 3> b = exact_end(above);
-        const mpq_class part = (mesh_.height_ - a[2]) / (b[2] - a[2]);
-        return {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
+        const auto [u, v] = mesh_.frame_.axes();
+        const std::array<mpq_class, 3> a = SectionNumbers::corner(mesh_, below);
+        if (below == above) return {a[u], a[v]};
+        const std::array<mpq_class, 3> b = SectionNumbers::corner(mesh_, above);
+        const mpq_class from = SectionNumbers::level(mesh_.frame_, a);
+        const mpq_class part = (height_ - from) / (SectionNumbers::level(mesh_.frame_, b) - from);
+        return {a[u] + part * (b[u] - a[u]), a[v] + part * (b[v] - a[v])};
+    }
+    /// Whether a corner is where its doubles are.
+    [[nodiscard]] bool is_exact(std::uint32_t n) const {
+        const auto [below, above] = ends_[n];
+        if (below == above) return mesh_.is_double_[below] != 0;
+        if (const auto p = in_pairs(ends_[n]))
+            for (const DoublePair& c : p->at)
+                if (std::fabs(c.low) > p->error) return false;
+        const Numbers p = exact(n);
+        return p[0] == near_[n][0] && p[1] == near_[n][1];
     }
 
     // Weights of both ends are between 0 and 1, and each step is off by less than 2^-99 of what it
@@ -169,12 +262,14 @@ private:
     [[nodiscard]] std::optional<Pairs> in_pairs(const Ends& ends) const {
         const auto [below, above] = ends;
         if (mesh_.is_double_[below] == 0 || mesh_.is_double_[above] == 0) return std::nullopt;
-        const Point3d& a = mesh_.near_[below];
-        const Point3d& b = mesh_.near_[above];
+        const auto axes = mesh_.frame_.axes();
+        const Point2d a{mesh_.near_[below][axes[0]], mesh_.near_[below][axes[1]]};
+        const Point2d b{mesh_.near_[above][axes[0]], mesh_.near_[above][axes[1]]};
         if (below == above) return Pairs{{{{a[0], 0}, {a[1], 0}}}, 0};
-        const DoublePair of_a = two_sum(b[2], -mesh_.height_);
-        const DoublePair of_b = two_sum(mesh_.height_, -a[2]);
-        const DoublePair both = two_sum(b[2], -a[2]);
+        if (!mesh_.frame_.is_axis()) return std::nullopt;
+        const DoublePair of_a = two_sum(mesh_.level_[above], -height_);
+        const DoublePair of_b = two_sum(height_, -mesh_.level_[below]);
+        const DoublePair both = two_sum(mesh_.level_[above], -mesh_.level_[below]);
         if (both.high < 0x1p-100) return std::nullopt;
         Pairs out;
         for (std::size_t k = 0; k < 2; ++k) {
@@ -188,7 +283,8 @@ private:
     }
     [[nodiscard]] Point2d rounded(std::uint32_t n) const {
         const auto [below, above] = ends_[n];
-        if (below == above) return {mesh_.near_[below][0] + 0.0, mesh_.near_[below][1] + 0.0};
+        const auto [u, v] = mesh_.frame_.axes();
+        if (below == above) return {mesh_.near_[below][u] + 0.0, mesh_.near_[below][v] + 0.0};
         if (const auto p = in_pairs(ends_[n])) {
             const auto x = nearest(p->at[0], p->error);
             const auto y = nearest(p->at[1], p->error);
@@ -265,18 +361,55 @@ private:
     }
 
     const MeshSection& mesh_;
+    double height_;
     int in_plane_;  // the side of what is in the plane
-    std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
+    PairNumbers numbers_;
     std::vector<Ends> ends_;
     std::vector<Point2d> near_;
     std::vector<std::array<std::uint32_t, 2>> sides_;
 };
 
-SectionSides MeshSection::right(Place place) const {
-    check_stop(triangles_.size());
-    SectionCorners corners(*this, place);
-    for (const Triangle& t : triangles_) corners.add(t);
+SectionSides MeshSection::right(const SectionPlane& plane, Place place) const {
+    check_stop(plane.triangles.size());
+    SectionCorners corners(*this, plane, place);
+    for (const std::uint32_t t : plane.triangles) corners.add(triangles_[t]);
     return corners.finish();
+}
+
+// Counted first, so that what is stored is as long as it must be.
+SectionStack::SectionStack(const MeshSection& mesh, std::span<const double> heights)
+    : heights_(heights.begin(), heights.end()) {
+    for (const double height : heights)
+        if (!std::isfinite(height)) throw UsageError("the height of a section must be finite");
+    std::ranges::sort(heights_);
+    heights_.erase(std::unique(heights_.begin(), heights_.end()), heights_.end());
+    check_stop(mesh.triangle_count());
+    const auto planes_of = [&](std::uint32_t triangle) {
+        const auto [low, high] = mesh.range_of(triangle);
+        const auto first = std::lower_bound(heights_.begin(), heights_.end(), low);
+        const auto end = std::upper_bound(first, heights_.end(), high);
+        return std::pair(static_cast<std::size_t>(first - heights_.begin()),
+                         static_cast<std::size_t>(end - heights_.begin()));
+    };
+    // How many more there are than in the plane before, and then where each plane begins.
+    std::vector<std::int64_t> more(heights_.size() + 1, 0);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+        const auto [first, end] = planes_of(t);
+        ++more[first];
+        --more[end];
+    }
+    begin_.push_back(0);
+    std::int64_t in_plane = 0;
+    for (std::size_t i = 0; i < heights_.size(); ++i) {
+        in_plane += more[i];
+        begin_.push_back(begin_.back() + static_cast<std::size_t>(in_plane));
+        if (begin_.back() > most_sides)
+            throw LimitError("the slices have more than 2^31 sides altogether");
+    }
+    triangles_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+        for (auto [i, end] = planes_of(t); i < end; ++i) triangles_[next[i]++] = t;
 }
 
 }  // namespace trisect::detail

@@ -3,14 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
+#include <span>
 
-#include <trisect/brep/measure.h>
-#include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/mesh_section.h>
 #include <trisect/bsp/modelling/plane_triangles.h>
-#include <trisect/kernel/error.h>
+#include <trisect/bsp/modelling/section_prism.h>
 
 namespace trisect {
 namespace {
@@ -23,43 +20,21 @@ bool looks_down(const Point3d& a, const Point3d& b, const Point3d& c) {
     return turn < -1e-12 * size;
 }
 
-/// \throw UnsupportedError for an unbounded set
-ExactMesh bounded_mesh(const Solid& solid, const EvaluateOptions& options) {
-    const int far_out = detail::state_of(solid)->far_out;
-    ExactMesh mesh = solid.to_exact_mesh(options.threads);
-    // Half-spaces alone decide it only when they have been put together.
-    if (far_out == 1 || (far_out < 0 && (mesh.triangles.empty() ? solid.is_whole_space()
-                                                                : exact_volume(mesh).sign() < 0)))
-        throw UnsupportedError("an unbounded set has no section");
-    return mesh;
-}
-
-/// Where the winding number of the sides is as the rule has it.
-Expression region_within(detail::SectionSides found, const EvaluateOptions& options) {
-    if (found.sides.empty()) return Solid();
-    const Expression positive = flat_prism(found.corners, found.sides, 0, 1);
-    if (options.winding == EvaluateOptions::Winding::Positive) return positive;
-    for (auto& [from, to] : found.sides) std::swap(from, to);
-    return positive | flat_prism(found.corners, found.sides, 0, 1);
-}
-
-/// Both sides have the same faces in the plane, if no face of the solid itself is there.
-Solid region_at(const detail::MeshSection& mesh, const EvaluateOptions& options) {
-    using Place = detail::MeshSection::Place;
-    const Expression below = region_within(mesh.right(Place::Below), options);
-    if (!mesh.has_face_in_plane()) return evaluate(below, options);
-    return evaluate(below | region_within(mesh.right(Place::Above), options), options);
+/// At one height.
+Solid region_at(const detail::MeshSection& mesh, double height, const EvaluateOptions& options) {
+    const detail::SectionStack stack(mesh, std::span(&height, 1));
+    return detail::section_prism(mesh, stack.plane(0), SliceRule::Closed, options).prism;
 }
 
 }  // namespace
 
 PlaneRegion section(const Solid& solid, double height, const EvaluateOptions& options) {
-    const ExactMesh mesh = bounded_mesh(solid, options);
-    return region_of_faces(region_at(detail::MeshSection(mesh, height), options), 1);
+    const ExactMesh mesh = detail::mesh_of_bounded(solid, options);
+    return region_of_faces(region_at(detail::MeshSection(mesh), height, options), 1);
 }
 
 Solid section_of_mesh(const PolygonMesh& mesh, double height, const EvaluateOptions& options) {
-    return region_at(detail::MeshSection(mesh, height), options);
+    return region_at(detail::MeshSection(mesh), height, options);
 }
 
 // What looks down covers nothing that the triangles that look up do not. Walls are below their

@@ -288,6 +288,13 @@ std::vector<double> numbers_of(const py::object& numbers, std::size_t count, con
     return {a.data(), a.data() + count};
 }
 
+std::vector<double> numbers_of(const py::object& numbers, const char* what) {
+    const auto a = doubles_of(array_of(numbers, what), what);
+    if (a.ndim() != 1)
+        throw UsageError(std::string(what) + ": must have the shape (n,), not " + shape_text(a));
+    return {a.data(), a.data() + a.size()};
+}
+
 Point3d point_of(const py::object& point, const char* what) {
     const std::vector<double> v = numbers_of(point, 3, what);
     return {v[0], v[1], v[2]};

@@ -63,6 +63,8 @@ void require_finite(std::span<const Point3d> points);
 /// `count` numbers. \throw as above
 [[nodiscard]] std::vector<double> numbers_of(const py::object& numbers, std::size_t count,
                                              const char* what);
+/// The same for any number of them.
+[[nodiscard]] std::vector<double> numbers_of(const py::object& numbers, const char* what);
 /// Any number of points of the plane. \throw as above
 [[nodiscard]] std::vector<std::array<double, 2>> outline_of(const py::object& points,
                                                             const char* what);

@@ -21,6 +21,7 @@ void bind_measures(py::module_& m);
 void bind_transforms(py::module_& m);
 void bind_primitives(py::module_& m);
 void bind_modelling(py::module_& m);
+void bind_slices(py::module_& m);
 void bind_files(py::module_& m);
 void bind_queries(py::module_& m);
 void bind_interference(py::module_& m);

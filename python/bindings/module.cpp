@@ -24,6 +24,7 @@ PYBIND11_MODULE(_trisect, m) {
     bind_modelling(m);
     bind_files(m);
     bind_queries(m);
+    bind_slices(m);
     bind_interference(m);
     bind_regions(m);
     bind_motion(m);
