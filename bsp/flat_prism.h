@@ -63,10 +63,6 @@ struct FlatOutlines {
 /// Triangles over the points of flat_outlines(), counter-clockwise. \pre it has such outlines
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> flat_triangles(const Solid& solid);
 
-/// Connected pieces of the region, by numbers of loops of flat_outlines(): the outline first, then
-/// its holes, in the order of their smallest corners. \pre it has such outlines
-[[nodiscard]] std::vector<std::vector<std::uint32_t>> flat_regions(const Solid& solid);
-
 /// The value of a formula over such prisms along one axis between the same two heights, as
 /// evaluate() finds it. Nothing for any other formula.
 [[nodiscard]] std::optional<Solid> evaluate_flat_prisms(const Expression& expression,

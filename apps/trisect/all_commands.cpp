@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "command_with.h"
 #include "commands.h"
+#include "slice_command.h"
 
 namespace trisect::app {
 

@@ -53,9 +53,6 @@ void add_sweep_command(CLI::App& app, SweepOptions& options);
 void add_section_command(CLI::App& app, SectionOptions& options);
 [[nodiscard]] Outcome run_section(Session& session, const SectionOptions& options);
 
-void add_slice_command(CLI::App& app, SliceCommandOptions& options);
-[[nodiscard]] Outcome run_slice(Session& session, const SliceCommandOptions& options);
-
 void add_render_command(CLI::App& app, RenderOptions& options);
 [[nodiscard]] Outcome run_render(Session& session, const RenderOptions& options);
 

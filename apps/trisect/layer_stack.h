@@ -41,7 +41,7 @@ enum class LayerFormat { Svg, Dxf, Cli, Json };
 /// A group for each layer, with a polygon for each loop, as Slic3r writes them: `slic3r:z` has the
 /// height, `slic3r:type` is contour or hole.
 [[nodiscard]] std::string svg_of_layers(const LayerStack& stack);
-/// Of AutoCAD 2000: closed LWPOLYLINEs at their elevations, on a layer for each layer.
+/// As of version AC1015: closed LWPOLYLINEs at their elevations, on a layer for each layer.
 [[nodiscard]] std::string dxf_of_layers(const LayerStack& stack);
 /// Common Layer Interface 2.0, as text. Layers have the heights of their upper sides, as it has
 /// them, and a first one without outlines the lower side of all.

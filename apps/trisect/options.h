@@ -9,7 +9,6 @@
 #include <trisect/brep/mend/mend.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/first_contact.h>
-#include <trisect/bsp/modelling/slices.h>
 
 #include <array>
 #include <cstdint>
@@ -17,8 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "layer_heights.h"
-#include "layer_stack.h"
 #include "picture_style.h"
 #include "plane_request.h"
 
@@ -131,15 +128,6 @@ struct SectionOptions {
     QueryOptions set;
     PlaneRequest plane;
     std::string output;  ///< empty: none
-};
-
-struct SliceCommandOptions {
-    QueryOptions set;
-    HeightRequest heights;
-    int axis = 2;
-    SliceRule rule = SliceRule::Closed;
-    std::string output;                 ///< empty: none
-    std::optional<LayerFormat> format;  ///< nothing: by the name of the output
 };
 
 struct ViewOptions {

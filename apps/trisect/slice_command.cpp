@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // slice A --step H -o OUT: a stack of sections across an axis, found in one walk over the boundary.
+#include "slice_command.h"
+
 #include <trisect/brep/exact_mesh.h>
-#include <trisect/bsp/modelling/slices.h>
 
 #include <fmt/format.h>
 
@@ -11,9 +12,6 @@
 #include <limits>
 
 #include "choice.h"
-#include "commands.h"
-#include "layer_heights.h"
-#include "layer_stack.h"
 #include "output_name.h"
 #include "queried_set.h"
 #include "values.h"
@@ -21,10 +19,10 @@
 namespace trisect::app {
 namespace {
 
-const Choices<LayerFormat> formats{{"svg", LayerFormat::Svg},
-                                   {"dxf", LayerFormat::Dxf},
-                                   {"cli", LayerFormat::Cli},
-                                   {"json", LayerFormat::Json}};
+const Choices<LayerFormat> layer_formats{{"svg", LayerFormat::Svg},
+                                         {"dxf", LayerFormat::Dxf},
+                                         {"cli", LayerFormat::Cli},
+                                         {"json", LayerFormat::Json}};
 
 /// By --as, or the name; a drawing else.
 LayerFormat format_of(const SliceCommandOptions& options) {
@@ -34,10 +32,10 @@ LayerFormat format_of(const SliceCommandOptions& options) {
         return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     });
     if (found.empty()) return LayerFormat::Svg;
-    for (const auto& [word, format] : formats)
+    for (const auto& [word, format] : layer_formats)
         if (found == "." + std::string(word)) return format;
     throw UsageError(fmt::format("{}: layers are written as {}, or as --as says", options.output,
-                                 joined_words(formats, ", ")));
+                                 joined_words(layer_formats, ", ")));
 }
 
 void check_options(const Session& session, const SliceCommandOptions& options) {
@@ -115,14 +113,14 @@ std::string text_of(const LayerStack& stack, LayerFormat format) {
     return svg_of_layers(stack);
 }
 
-struct Totals {
+struct StackTotals {
     std::size_t regions = 0;
     std::size_t loops = 0;
     std::size_t corners = 0;
     double volume = 0;  ///< of all steps, each as thick as it is
 };
 
-Json layer_json(const Layer& layer, Totals& totals) {
+Json layer_json(const Layer& layer, StackTotals& totals) {
     std::size_t loops = 0;
     std::size_t corners = 0;
     for (const auto& region : layer.regions) {
@@ -201,14 +199,14 @@ void add_slice_command(CLI::App& app, SliceCommandOptions& options) {
         ->add_option_function<std::string>(
             "--as",
             [&options](const std::string& text) {
-                for (const auto& [word, format] : formats)
+                for (const auto& [word, format] : layer_formats)
                     if (word == text) options.format = format;
                 if (!options.format)
                     throw UsageError("--as: '" + text + "' is none of " +
-                                     joined_words(formats, ", "));
+                                     joined_words(layer_formats, ", "));
             },
             "format of the output (default: by its name, else svg)")
-        ->type_name(joined_words(formats, "|"));
+        ->type_name(joined_words(layer_formats, "|"));
 }
 
 Outcome run_slice(Session& session, const SliceCommandOptions& options) {
@@ -227,7 +225,7 @@ Outcome run_slice(Session& session, const SliceCommandOptions& options) {
             session.write_output(options.output, text_of(stack, format_of(options)));
         });
     Outcome out;
-    Totals totals;
+    StackTotals totals;
     Json layers = Json::array();
     for (const Layer& layer : stack.layers) layers.push_back(layer_json(layer, totals));
     out.document["schema"] = "trisect.slice/1";

@@ -146,6 +146,8 @@ bool MeshSection::has_face_in(const SectionPlane& plane) const {
     });
 }
 
+namespace {
+
 /// Numbers for pairs of numbers, in the order in which they come.
 class PairNumbers {
 public:
@@ -172,6 +174,8 @@ private:
     std::vector<Slot> slots_;
     std::uint32_t count_ = 0;
 };
+
+}  // namespace
 
 /// The corners of one section, by name.
 class SectionCorners {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Regions of sections, as prisms over them between z = 0 and z = 1.
+// Sections as prisms over their regions.
+// They are between z = 0 and z = 1.
 #pragma once
 
 #include <trisect/brep/exact_mesh.h>

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include <trisect/brep/measure/double_pair.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/flat/flat_mesh.h>
 #include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/mesh_section.h>
 #include <trisect/bsp/modelling/plane_region.h>
@@ -32,7 +35,8 @@ Slice slice_of(detail::SectionPrism section, double height) {
     }
     out.points = std::move(flat->points);
     out.loops = std::move(flat->loops);
-    out.regions = flat_regions(section.prism);
+    const auto& form = std::get<detail::FlatPrism>(detail::state_of(section.prism)->form);
+    out.regions = detail::flat_regions(form.operand->resolved());
     out.is_exact = section.is_exact && flat->is_exact;
     return out;
 }

@@ -36,8 +36,8 @@ struct Slice {
     double height = 0;
     std::vector<Point2d> points;
     /// Outlines counter-clockwise, holes clockwise; the inside is on the left of every loop. None
-    /// has a corner where it goes straight on. Loops touch each other and themselves in corners at
-    /// most.
+    /// has a corner where it goes straight on, but where something touches it. Loops touch each
+    /// other and themselves in corners at most.
     std::vector<std::vector<std::uint32_t>> loops;
     /// Connected pieces, by numbers of loops: the outline first, then its holes. Pieces may lie in
     /// holes of others; they and their holes are in the order of their smallest corners.

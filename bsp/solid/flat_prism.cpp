@@ -178,12 +178,6 @@ std::vector<std::array<std::uint32_t, 3>> flat_triangles(const Solid& solid) {
     return detail::flat_triangles(prism->operand->resolved());
 }
 
-std::vector<std::vector<std::uint32_t>> flat_regions(const Solid& solid) {
-    const FlatPrism* const prism = flat_form(solid);
-    if (prism == nullptr) throw UsageError("regions of a solid that is no flat prism");
-    return detail::flat_regions(prism->operand->resolved());
-}
-
 std::optional<Solid> evaluate_flat_prisms(const Expression& expression,
                                           const EvaluateOptions& options) {
     auto state = detail::evaluate_flat(detail::translate(expression), options);

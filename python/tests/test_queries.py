@@ -116,3 +116,35 @@ def test_sections(part):
 def test_faces_in_a_box(part, two_boxes):
     faces = part.faces_in_box((0.9, 0.9, 0.9), (1.1, 1.1, 1.1))
     assert faces.shape == (3, 2) and (faces[:, 0] == two_boxes[1].source_id).all()
+
+
+def test_slices():
+    plate = Solid.box((0, 0, 0), (4, 4, 2)) - Solid.box((1, 1, -1), (2, 2, 1)) | Solid.box((8, 0, 0), (9, 1, 1))
+    heights = [0.5, 1.5, 7, 1, 0.5]
+    layers = plate.slices(heights)
+    assert [len(layer) for layer in layers] == [2, 1, 0, 2, 2]
+    assert [[len(holes) for _, holes in layer] for layer in layers] == [[1, 0], [0], [], [0, 0], [1, 0]]
+
+    def loops(layer):
+        return sorted(sorted(map(tuple, loop.tolist())) for outer, holes in layer for loop in (outer, *holes))
+
+    for height, layer in zip(heights, layers):
+        assert loops(layer) == loops(plate.section((0, 0, 1, -height)))
+        assert all((outer[:, 2] == height).all() for outer, _ in layer)
+    for axis, normal in (("x", (1, 0, 0)), ("y", (0, 1, 0)), ((1, 2, 3), (1, 2, 3))):
+        (layer,) = plate.slices(np.array([1.5]), axis=axis)
+        section = plate.section((*normal, -1.5))
+        assert len(layer) == len(section) and np.allclose(loops(layer), loops(section))
+    assert [len(layer) for layer in plate.slices([0, 2], faces="above")] == [2, 0]
+    assert [len(layer) for layer in plate.slices([0, 2], faces="below")] == [0, 1]
+    assert plate.slices([]) == [] and Solid().slices([1]) == [[]]
+    with pytest.raises(trisect.UsageError, match="axis: must be"):
+        plate.slices([1], axis="w")
+    with pytest.raises(trisect.UsageError, match="heights: must have the shape"):
+        plate.slices(1)
+    with pytest.raises(trisect.UsageError, match="finite"):
+        plate.slices([np.inf])
+    with pytest.raises(trisect.UsageError, match="faces: must be"):
+        plate.slices([1], faces="all")
+    with pytest.raises(trisect.UnsupportedError):
+        (~plate).slices([1])
