@@ -8,11 +8,13 @@
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <trisect/bsp/cells/point_order.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
@@ -96,7 +98,7 @@ void EdgeSplitter::clear() {
     for (VertexColumns& c : columns_) c.clear();
     boxes_.clear();
     known_.clear();
-    known_edges_.clear();
+    slots_.clear();
 }
 
 void EdgeSplitter::add_candidate(PointId p) {
@@ -158,17 +160,35 @@ EdgeSplitter::Inside EdgeSplitter::find_once(const BoundaryEdge& e) {
     if (!are_many_) {
         inside_.clear();
         find_inside(e);
-        return {e.from, 0, static_cast<std::uint32_t>(inside_.size())};
+        return {e.from, e.to, 0, static_cast<std::uint32_t>(inside_.size())};
     }
-    const auto [low, high] = std::minmax(e.from, e.to);
-    const Key128 ends{static_cast<std::uint64_t>(low), static_cast<std::uint64_t>(high)};
-    const auto [number, is_new] =
-        known_edges_.insert(ends, static_cast<std::int32_t>(known_.size()));
-    if (!is_new) return known_[as_index(number)];
+    if (2 * (known_.size() + 1) > slots_.size()) make_slots(2 * slots_.size());
+    std::uint32_t& slot = slot_of(e.from, e.to);
+    if (slot != 0) return known_[slot - 1];
     const auto first = static_cast<std::uint32_t>(inside_.size());
     find_inside(e);
-    return known_.emplace_back(
-        Inside{e.from, first, static_cast<std::uint32_t>(inside_.size()) - first});
+    known_.push_back({e.from, e.to, first, static_cast<std::uint32_t>(inside_.size()) - first});
+    slot = static_cast<std::uint32_t>(known_.size());
+    return known_.back();
+}
+
+// Of the edge between two points, either way; else a free one.
+std::uint32_t& EdgeSplitter::slot_of(PointId from, PointId to) {
+    const auto [low, high] = std::minmax(from, to);
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = static_cast<std::size_t>(mix64(static_cast<std::uint64_t>(low) << 32U |
+                                                   static_cast<std::uint32_t>(high))) &
+                    mask;
+    const auto is_other = [&](const Inside& known) {
+        return std::min(known.from, known.to) != low || std::max(known.from, known.to) != high;
+    };
+    while (slots_[i] != 0 && is_other(known_[slots_[i] - 1])) i = (i + 1) & mask;
+    return slots_[i];
+}
+
+void EdgeSplitter::make_slots(std::size_t n) {
+    slots_.assign(std::max<std::size_t>(n, 64), 0);
+    for (std::uint32_t k = 0; k < known_.size(); ++k) slot_of(known_[k].from, known_[k].to) = k + 1;
 }
 
 void EdgeSplitter::find_inside(const BoundaryEdge& e) {
@@ -246,6 +266,7 @@ void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<Bounda
         return;
     }
     sort_candidates(edges);
+    if (are_many_) make_slots(std::bit_ceil(edges.size()));  // mostly each edge comes twice
     inside_.clear();
     for (const BoundaryEdge& e : edges) {
         const Inside found = find_once(e);

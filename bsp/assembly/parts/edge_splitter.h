@@ -14,7 +14,6 @@
 #include <trisect/bsp/assembly/parts/vertex_columns.h>
 #include <trisect/bsp/assembly/parts/vertex_grid.h>
 #include <trisect/bsp/cells/workbench.h>
-#include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
 
@@ -38,11 +37,14 @@ private:
     void sort_candidates(std::span<const BoundaryEdge> edges);
     [[nodiscard]] double short_length(std::span<const BoundaryEdge> edges) const;
     struct Inside {
-        PointId from = -1;        // an end of the edge that has looked
+        PointId from = -1;  // the edge that has looked
+        PointId to = -1;
         std::uint32_t first = 0;  // of inside_
         std::uint32_t count = 0;
     };
     [[nodiscard]] Inside find_once(const BoundaryEdge& e);
+    [[nodiscard]] std::uint32_t& slot_of(PointId from, PointId to);
+    void make_slots(std::size_t n);
     void find_inside(const BoundaryEdge& e);
     void find_inside_sorted(const BoundaryEdge& e);
     void find_inside_near(const BoundaryEdge& e);
@@ -61,8 +63,8 @@ private:
     std::size_t axis_ = 0;                  // that they are sorted along
     double widest_ = 0;                     // error of a candidate or an end
     std::vector<PointId> inside_;           // of the edges that have looked, each along its edge
-    std::vector<Inside> known_;             // of many candidates, by the numbers of known_edges_
-    FlatMap known_edges_;
+    std::vector<Inside> known_;             // of many candidates
+    std::vector<std::uint32_t> slots_;      // of a hash table: 1 more than a place in known_, or 0
 };
 
 }  // namespace trisect::detail
