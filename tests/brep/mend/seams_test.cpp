@@ -110,7 +110,9 @@ TEST(CloseSeams, ChainsDoNotMoveFar) {
 // beside it, and must not go into them before they are joined.
 TEST(CloseSeams, OfFacetsWithFewDigits) {
     PolygonMesh whole = test::in_triangles(cuboid({0, 0, 0}, {16, 16, 16}));
-    append(whole, test::in_triangles(make_uv_sphere(4, 12, 7)));
+    PolygonMesh ball = test::in_triangles(make_uv_sphere(4, 12, 7));
+    for (Point3d& p : ball.points) p[0] += 30;
+    append(whole, ball);
     for (unsigned seed = 0; seed < 20; ++seed) {
         std::mt19937 random(seed);
         const double unit = 0x1p-10;
