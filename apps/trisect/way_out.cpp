@@ -58,6 +58,9 @@ std::string way_out_hint(const ValidationReport& report) {
     for_each_kind(report, [&](DefectKind kind) {
         if (severity_of(kind) != Severity::Error) return;
         out += fmt::format("{}{}: {}", out.empty() ? "" : "; ", name_of(kind), way_out(kind));
+        // Import does not look why an edge is open.
+        if (kind == DefectKind::OpenEdge)
+            out += ", '--orient' turns faces over if 'trisect check' finds flipped ones";
     });
     return out;
 }

@@ -48,9 +48,11 @@ TEST_F(MendCommand, FacesAreTurnedOver) {
     const std::string file = cube("a.obj", "f 5 7 8 6\nf 2 4 8 6\n");
     const Finished before = trisect({"union", file, file, "-o", out_});
     EXPECT_EQ(before.code, 4);
-    EXPECT_NE(before.err.find("trisect: hint: flipped_face: 'trisect mend --orient'"),
-              std::string::npos)
+    EXPECT_NE(before.err.find("trisect: hint: open_edge: 'trisect mend "), std::string::npos)
         << before.err;
+    EXPECT_NE(before.err.find("'--orient' turns faces over"), std::string::npos) << before.err;
+    EXPECT_NE(check(file)["ways_out"]["flipped_face"].get<std::string>().find("mend --orient"),
+              std::string::npos);
     const Finished result = trisect({"mend", file, "-o", out_, "--orient", "--json"});
     EXPECT_EQ(result.code, 0) << result.err;
     const json document = result.json();
