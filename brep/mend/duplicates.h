@@ -11,7 +11,7 @@ namespace trisect::detail {
 /// Leaves out all but one of the faces with the same corners in the same order. Of what remains,
 /// two faces of opposite orientation are both left out where each of their edges has an even number
 /// of other faces (a wall), and the second one where it has an odd number; otherwise both stay.
-/// O(n log n).
+/// Another such pair counts as no face. O(n log n).
 void drop_duplicates(MendingMesh& mesh, MendReport& report);
 
 }  // namespace trisect::detail
