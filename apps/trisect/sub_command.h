@@ -34,7 +34,8 @@ using SubCommands = std::vector<std::unique_ptr<SubCommand>>;
 
 /// What `trisect` has, but for compare-hierarchies, which is in a library of its own.
 [[nodiscard]] SubCommands all_commands();
-/// What scripts/demo builds: union, intersection, difference, xor, info, convert and render.
+/// What scripts/demo builds: union, intersection, difference, xor, resolve, info, convert and
+/// render.
 [[nodiscard]] SubCommands few_commands();
 
 }  // namespace trisect::app
