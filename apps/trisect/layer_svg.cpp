@@ -9,7 +9,7 @@
 namespace trisect::app {
 namespace {
 
-constexpr double longer_side = 800;  // pixels
+constexpr double longer_side = 800;  // pixels; lines are one wide
 
 /// From blue for the lowest to red for the highest.
 Color color_of(std::size_t number, std::size_t count) {
@@ -50,11 +50,10 @@ std::string svg_of_layers(const LayerStack& stack) {
         "xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\" width=\"{}\" height=\"{}\" "
         "viewBox=\"{} {} {} {}\">\n"
         "  <title>Slices</title>\n"
-        "  <g transform=\"scale(1,-1)\" stroke-width=\"1\" stroke-linejoin=\"round\">\n"
-        "    <style>polygon {{ vector-effect: non-scaling-stroke; }}</style>\n",
+        "  <g transform=\"scale(1,-1)\" stroke-width=\"{}\" stroke-linejoin=\"round\">\n",
         number_text(frame.width() * scale), number_text(frame.height() * scale),
         number_text(frame.lower[0]), number_text(-frame.upper[1] + 0.0), number_text(frame.width()),
-        number_text(frame.height()));
+        number_text(frame.height()), number_text(1 / scale));
     for (std::size_t i = 0; i < stack.layers.size(); ++i) {
         const Layer& layer = stack.layers[i];
         out += fmt::format("    <g id=\"layer{}\" slic3r:z=\"{}\" fill=\"none\" stroke=\"{}\">\n",

@@ -19,6 +19,8 @@
 #include <trisect/brep/measure/double_pair.h>
 #include <trisect/brep/measure/exact_values.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/plane.h>
+#include <trisect/kernel/predicates.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace trisect::detail {
@@ -198,7 +200,10 @@ public:
             if (from > 0 && to < 0) down = number(t[next], at[next], t[k], at[k]);
             if (from < 0 && to > 0) up = number(t[k], at[k], t[next], at[next]);
         }
-        if (down != up) sides_.push_back({down, up});
+        if (down == up) return;
+        sides_.push_back({down, up});
+        first_of_.push_back(&t);
+        last_of_.push_back(&t);
     }
 
     [[nodiscard]] SectionSides finish() {
@@ -298,17 +303,20 @@ private:
         return {nearest(p[0]), nearest(p[1])};
     }
 
-    // Whether corners surely turn at b. Rounded ones are off by 2^-53 of their size; the bound has
-    // room for all of that.
-    [[nodiscard]] bool turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        const Point2d u{near_[b][0] - near_[a][0], near_[b][1] - near_[a][1]};
-        const Point2d v{near_[c][0] - near_[b][0], near_[c][1] - near_[b][1]};
+    // What products of two sides may be off by. Corners are off by 2^-53 of their size.
+    [[nodiscard]] double doubt_of(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                  const Point2d& u, const Point2d& v) const {
         double size = 0;
         for (const std::uint32_t n : {a, b, c})
             size = std::max({size, std::fabs(near_[n][0]), std::fabs(near_[n][1])});
-        const double lengths =
-            std::fabs(u[0]) + std::fabs(u[1]) + std::fabs(v[0]) + std::fabs(v[1]);
-        return std::fabs(u[0] * v[1] - u[1] * v[0]) > 0x1p-48 * size * lengths;
+        return 0x1p-48 * size *
+               (std::fabs(u[0]) + std::fabs(u[1]) + std::fabs(v[0]) + std::fabs(v[1]));
+    }
+    // Whether corners surely turn at b.
+    [[nodiscard]] bool turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        const Point2d u{near_[b][0] - near_[a][0], near_[b][1] - near_[a][1]};
+        const Point2d v{near_[c][0] - near_[b][0], near_[c][1] - near_[b][1]};
+        return std::fabs(u[0] * v[1] - u[1] * v[0]) > doubt_of(a, b, c, u, v);
     }
     // The same by pairs: differences are off by 2 e and 2^-100 of the size, products by 2^-99.
     [[nodiscard]] bool turns_by_pairs(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
@@ -331,8 +339,35 @@ private:
         const DoublePair turn = subtract(multiply(u[0], v[1]), multiply(u[1], v[0]));
         return std::fabs(turn.high) > 16 * e * (lengths + 16 * e) + 0x1p-96 * lengths * lengths;
     }
-    [[nodiscard]] bool goes_straight(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        if (turns(a, b, c) || turns_by_pairs(a, b, c)) return false;
+    // Within an edge, sides are on one line where the triangles beside it are in one plane, and
+    // nowhere else: the edge goes through the section's plane. Nothing where corners are no lattice
+    // points, or doubles do not show whether the second side goes on or comes back.
+    [[nodiscard]] std::optional<bool> goes_straight_by_triangles(
+        std::uint32_t a, std::uint32_t b, std::uint32_t c, const MeshSection::Triangle& before,
+        const MeshSection::Triangle& after) const {
+        const auto [below, above] = ends_[b];
+        if (below == above || mesh_.exact_ == nullptr) return std::nullopt;
+        const auto& points = mesh_.exact_->points;
+        std::uint32_t apex = none;
+        for (const std::uint32_t v : after)
+            if (v != below && v != above) apex = v;
+        for (const std::uint32_t v : {before[0], before[1], before[2], apex})
+            if (!points[v].is_lattice()) return std::nullopt;
+        const Plane plane = Plane::through(points[before[0]].lattice(), points[before[1]].lattice(),
+                                           points[before[2]].lattice());
+        if (side_of(points[apex].lattice(), plane) != Side::On) return false;
+        const Point2d u{near_[b][0] - near_[a][0], near_[b][1] - near_[a][1]};
+        const Point2d v{near_[c][0] - near_[b][0], near_[c][1] - near_[b][1]};
+        const double along = u[0] * v[0] + u[1] * v[1];
+        if (std::fabs(along) <= doubt_of(a, b, c, u, v)) return std::nullopt;
+        return along > 0;
+    }
+    [[nodiscard]] bool goes_straight(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                     const MeshSection::Triangle& before,
+                                     const MeshSection::Triangle& after) const {
+        if (turns(a, b, c)) return false;
+        if (const auto known = goes_straight_by_triangles(a, b, c, before, after)) return *known;
+        if (turns_by_pairs(a, b, c)) return false;
         const Numbers p = exact(a);
         const Numbers q = exact(b);
         const Numbers r = exact(c);
@@ -357,8 +392,11 @@ private:
             if (is_simple[n] == 0 || in[n] == none || out[n] == none || in[n] == out[n]) continue;
             const std::uint32_t before = sides_[in[n]][0];
             const std::uint32_t after = sides_[out[n]][1];
-            if (before == after || !goes_straight(before, n, after)) continue;
+            if (before == after ||
+                !goes_straight(before, n, after, *last_of_[in[n]], *first_of_[out[n]]))
+                continue;
             sides_[in[n]][1] = after;
+            last_of_[in[n]] = last_of_[out[n]];
             if (in[after] == out[n]) in[after] = in[n];
             sides_[out[n]] = {none, none};
         }
@@ -371,6 +409,9 @@ private:
     std::vector<Ends> ends_;
     std::vector<Point2d> near_;
     std::vector<std::array<std::uint32_t, 2>> sides_;
+    // By side: the triangles in which it begins and ends, which differ where sides became one.
+    std::vector<const MeshSection::Triangle*> first_of_;
+    std::vector<const MeshSection::Triangle*> last_of_;
 };
 
 SectionSides MeshSection::right(const SectionPlane& plane, Place place) const {
