@@ -148,37 +148,6 @@ bool MeshSection::has_face_in(const SectionPlane& plane) const {
     });
 }
 
-namespace {
-
-/// Numbers for pairs of numbers, in the order in which they come.
-class PairNumbers {
-public:
-    /// For at most that many.
-    explicit PairNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 2)) {}
-
-    /// The number, and whether it is a new one.
-    std::pair<std::uint32_t, bool> find(std::uint32_t p, std::uint32_t q) {
-        const std::uint64_t key = std::uint64_t{p} << 32U | q;
-        std::size_t at = (key * 0x9e3779b97f4a7c15U) >> 20U & (slots_.size() - 1);
-        while (slots_[at].number != none) {
-            if (slots_[at].key == key) return {slots_[at].number, false};
-            at = (at + 1) & (slots_.size() - 1);
-        }
-        slots_[at] = {key, count_};
-        return {count_++, true};
-    }
-
-private:
-    struct Slot {
-        std::uint64_t key = 0;
-        std::uint32_t number = none;
-    };
-    std::vector<Slot> slots_;
-    std::uint32_t count_ = 0;
-};
-
-}  // namespace
-
 /// The corners of one section, by name.
 class SectionCorners {
 public:
@@ -227,6 +196,33 @@ public:
     }
 
 private:
+    /// Numbers for pairs of numbers, in the order in which they come.
+    class PairNumbers {
+    public:
+        /// For at most that many.
+        explicit PairNumbers(std::size_t most) : slots_(std::bit_ceil(2 * most + 2)) {}
+
+        /// The number, and whether it is a new one.
+        std::pair<std::uint32_t, bool> find(std::uint32_t p, std::uint32_t q) {
+            const std::uint64_t key = std::uint64_t{p} << 32U | q;
+            std::size_t at = (key * 0x9e3779b97f4a7c15U) >> 20U & (slots_.size() - 1);
+            while (slots_[at].number != none) {
+                if (slots_[at].key == key) return {slots_[at].number, false};
+                at = (at + 1) & (slots_.size() - 1);
+            }
+            slots_[at] = {key, count_};
+            return {count_++, true};
+        }
+
+    private:
+        struct Slot {
+            std::uint64_t key = 0;
+            std::uint32_t number = none;
+        };
+        std::vector<Slot> slots_;
+        std::uint32_t count_ = 0;
+    };
+
     using Ends = std::array<std::uint32_t, 2>;  // below and above; twice one that is in the plane
     using Numbers = std::array<mpq_class, 2>;
     struct Pairs {
