@@ -25,6 +25,7 @@
 #include <trisect/bsp/modelling/projection.h>
 #include <trisect/bsp/modelling/slices.h>
 #include <trisect/bsp/solid_measure.h>
+#include <trisect/kernel/error.h>
 
 #ifdef TRISECT_BENCH_MANIFOLD
 #include <manifold/manifold.h>
@@ -131,6 +132,7 @@ void add_row(const std::string& file) {
         Solid::from_mesh(trisect::read_mesh(file), {.embedding = trisect::Embedding::Check});
     const Solid solid = evaluate(given);
     const PolygonMesh mesh = solid.to_mesh(1);
+    if (mesh.face_count() == 0) throw trisect::UsageError("is empty");
     const std::vector<double> corners = corner_heights(mesh);
     const double low = corners.front();
     const double high = corners.back();

@@ -45,7 +45,6 @@ std::string svg_of_layers(const LayerStack& stack) {
     const DrawingFrame frame = stack.frame().with_margin(0.04);
     const double scale = longer_side / std::max(frame.width(), frame.height());
     std::string out = fmt::format(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:slic3r=\"http://slic3r.org/namespaces/slic3r\" width=\"{}\" height=\"{}\" "
         "viewBox=\"{} {} {} {}\">\n"
