@@ -12,6 +12,7 @@
 #include <trisect/brep/io/exact_boundary.h>
 #include <trisect/brep/io/read_mesh.h>
 #include <trisect/brep/io/write_mesh.h>
+#include <trisect/brep/level_set/level_set_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/mend/mend.h>
 #include <trisect/brep/polygon_mesh.h>
@@ -19,6 +20,7 @@
 #include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/extrusion.h>
+#include <trisect/brep/primitives/height_field.h>
 #include <trisect/brep/primitives/hull.h>
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
@@ -54,11 +56,19 @@
 #include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/bsp/interference/solid_motion.h>
 #include <trisect/bsp/interference/solid_regions.h>
+#include <trisect/bsp/modelling/extrusion.h>
 #include <trisect/bsp/modelling/hull_of_solids.h>
+#include <trisect/bsp/modelling/level_set.h>
 #include <trisect/bsp/modelling/minkowski.h>
+#include <trisect/bsp/modelling/mirrored.h>
 #include <trisect/bsp/modelling/offset.h>
+#include <trisect/bsp/modelling/offset_of_solid.h>
+#include <trisect/bsp/modelling/plane_region.h>
 #include <trisect/bsp/modelling/projection.h>
+#include <trisect/bsp/modelling/resized.h>
+#include <trisect/bsp/modelling/revolution.h>
 #include <trisect/bsp/modelling/slices.h>
+#include <trisect/bsp/modelling/trimmed.h>
 #include <trisect/bsp/msp_tree.h>
 #include <trisect/bsp/native_file.h>
 #include <trisect/bsp/solid.h>

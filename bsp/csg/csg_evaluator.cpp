@@ -357,12 +357,15 @@ Expression CsgEvaluator::linear(std::uint32_t n, const CsgFrame& frame) {
         });
     }
     return kept_formula(n, frame, [&]() -> Expression {
-        return placed(n, csg_twisted(base_of(n), in, low, low + height), frame);
+        const PlaneRegion base = base_of(n);
+        return placed(n, at_node(n, [&] { return csg_twisted(base, in, low, low + height); }),
+                      frame);
     });
 }
 
 Expression CsgEvaluator::revolved(std::uint32_t n, const CsgFrame& frame) {
-    return placed(n, csg_revolved(base_of(n), program_.arguments(n)), frame);
+    const PlaneRegion base = base_of(n);
+    return placed(n, at_node(n, [&] { return csg_revolved(base, program_.arguments(n)); }), frame);
 }
 
 /// Of regions that lie in one plane one solid is left, so that what is flat in a program of solids

@@ -14,6 +14,7 @@
 #include <trisect/bsp/modelling/offset.h>
 #include <trisect/bsp/modelling/plane_region.h>
 #include <trisect/bsp/modelling/projection.h>
+#include <trisect/bsp/modelling/resized.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
 
@@ -28,21 +29,12 @@ bool is_at_origin(const CsgFrame& frame) {
     return frame.map == AffineMap() && frame.low == 0 && frame.high == 1;
 }
 
-/// Of resize(): a size that is not positive leaves its axis as it is, or, if it is to follow, gives
-/// it the factor of the axis with the largest new size.
-std::array<double, 3> factors_of(const CsgArguments& in, const Bounds& box, int dimension) {
-    const std::vector<double> sizes = in.numbers("newsize", 3, 0);
+Point3d factors_of(const CsgArguments& in, const Bounds& box, int dimension) {
+    std::vector<double> sizes = in.numbers("newsize", 3, 0);
     const std::vector<bool> follows = in.truths("auto", 3);
-    const auto axes = static_cast<std::size_t>(dimension);
-    std::array<double, 3> out{1, 1, 1};
-    std::size_t largest = 0;
-    for (std::size_t k = 0; k < axes; ++k) {
-        if (sizes[k] > 0) out[k] = sizes[k] / (box.hi[k] - box.lo[k]);
-        if (sizes[k] > sizes[largest]) largest = k;
-    }
-    for (std::size_t k = 0; k < axes; ++k)
-        if (!(sizes[k] > 0) && follows[k]) out[k] = out[largest];
-    return out;
+    if (dimension == 2) sizes[2] = 0;
+    return resize_factors(box, {sizes[0], sizes[1], sizes[2]},
+                          {follows[0], follows[1], dimension == 3 && follows[2]});
 }
 
 /// The triangles of a mesh under a map that reach the plane z = 0: all that its section there
@@ -234,8 +226,7 @@ Expression CsgEvaluator::resized(std::uint32_t n, const CsgFrame& frame) {
     const int dimension = program_.dimension(n);
     const std::optional<Bounds> box = bounds(solid_of(children_of(n, CsgFrame())));
     if (!box) return Solid();
-    const auto [x, y, z] = factors_of(program_.arguments(n), *box, dimension);
-    return turned(n, AffineMap::scaling({x, y, z}), frame);
+    return turned(n, AffineMap::scaling(factors_of(program_.arguments(n), *box, dimension)), frame);
 }
 
 }  // namespace trisect::detail

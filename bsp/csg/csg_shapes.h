@@ -11,8 +11,8 @@
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/primitives/point_2d.h>
 
+#include <trisect/brep/primitives/degrees.h>
 #include <trisect/bsp/csg/csg_arguments.h>
-#include <trisect/bsp/csg/drawing/degrees.h>
 
 namespace trisect::detail {
 

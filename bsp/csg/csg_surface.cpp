@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <trisect/brep/io/file_bytes.h>
+#include <trisect/brep/primitives/height_field.h>
 
 #include <trisect/bsp/csg/csg_import.h>
 #include <trisect/bsp/csg/csg_shapes.h>
@@ -81,76 +82,17 @@ Rows rows_of_picture(const CsgArguments& arguments, std::string_view bytes,
 #endif
 }
 
-class Field {
-public:
-    Field(const Rows& rows, bool center)
-        : rows_(rows),
-          width_(static_cast<std::uint32_t>(rows[0].size())),
-          height_(static_cast<std::uint32_t>(rows.size())),
-          x0_(center ? -(width_ - 1.0) / 2 : 0),
-          y0_(center ? -(height_ - 1.0) / 2 : 0) {}
-
-    PolygonMesh mesh() {
-        double least = highest_ground;
-        for (const auto& row : rows_)
-            least = std::min(least, *std::min_element(row.begin(), row.end()));
-        for (std::uint32_t y = 0; y < height_; ++y)
-            for (std::uint32_t x = 0; x < width_; ++x) add_point(x, y, rows_[y][x]);
-        add_cells();
-        add_below(least - base_depth);
-        return std::move(mesh_);
-    }
-
-private:
-    void add_point(double x, double y, double z) { mesh_.points.push_back({x0_ + x, y0_ + y, z}); }
-    [[nodiscard]] std::uint32_t at(std::uint32_t x, std::uint32_t y) const {
-        return y * width_ + x;
-    }
-
-    void add_cells() {
-        for (std::uint32_t y = 0; y + 1 < height_; ++y)
-            for (std::uint32_t x = 0; x + 1 < width_; ++x) {
-                const double mean =
-                    (rows_[y][x] + rows_[y][x + 1] + rows_[y + 1][x] + rows_[y + 1][x + 1]) / 4;
-                const auto middle = static_cast<std::uint32_t>(mesh_.points.size());
-                add_point(x + 0.5, y + 0.5, mean);
-                mesh_.add_triangle(at(x, y), at(x + 1, y), middle);
-                mesh_.add_triangle(at(x + 1, y), at(x + 1, y + 1), middle);
-                mesh_.add_triangle(at(x + 1, y + 1), at(x, y + 1), middle);
-                mesh_.add_triangle(at(x, y + 1), at(x, y), middle);
-            }
-    }
-
-    /// Walls down to a bottom that has a point below each point of the border.
-    void add_below(double bottom) {
-        std::vector<std::uint32_t> border;
-        for (std::uint32_t x = 0; x + 1 < width_; ++x) border.push_back(at(x, 0));
-        for (std::uint32_t y = 0; y + 1 < height_; ++y) border.push_back(at(width_ - 1, y));
-        for (std::uint32_t x = width_ - 1; x > 0; --x) border.push_back(at(x, height_ - 1));
-        for (std::uint32_t y = height_ - 1; y > 0; --y) border.push_back(at(0, y));
-        const auto first = static_cast<std::uint32_t>(mesh_.points.size());
-        const auto n = static_cast<std::uint32_t>(border.size());
-        for (const std::uint32_t p : border) {
-            const Point3d above = mesh_.points[p];
-            mesh_.points.push_back({above[0], above[1], bottom});
-        }
-        std::vector<std::uint32_t> loop;
-        for (std::uint32_t i = 0; i < n; ++i) {
-            const std::uint32_t j = (i + 1) % n;
-            mesh_.add_triangle(first + i, first + j, border[j]);
-            mesh_.add_triangle(first + i, border[j], border[i]);
-            loop.push_back(first + n - 1 - i);
-        }
-        mesh_.add_face(loop);
-    }
-
-    const Rows& rows_;
-    std::uint32_t width_;
-    std::uint32_t height_;
-    double x0_;
-    double y0_;
-    PolygonMesh mesh_;
-};
+PolygonMesh mesh_of(const Rows& rows, bool center) {
+    std::vector<double> heights;
+    for (const auto& row : rows) heights.insert(heights.end(), row.begin(), row.end());
+    const double least =
+        std::min(highest_ground, *std::min_element(heights.begin(), heights.end()));
+    HeightGrid grid{heights, static_cast<std::uint32_t>(rows[0].size())};
+    if (center)
+        grid.origin = {-(static_cast<double>(rows[0].size()) - 1.0) / 2,
+                       -(static_cast<double>(rows.size()) - 1.0) / 2};
+    return make_height_field(grid, least - base_depth);
+}
 
 }  // namespace
 
@@ -160,7 +102,7 @@ PolygonMesh csg_surface(const CsgArguments& arguments, const std::filesystem::pa
                           ? rows_of_picture(arguments, bytes.view(), file.string())
                           : rows_of(arguments, bytes.view());
     if (rows.size() < 2 || rows[0].size() < 2) return {};
-    return Field(rows, arguments.truth("center", false)).mesh();
+    return mesh_of(rows, arguments.truth("center", false));
 }
 
 }  // namespace trisect::detail

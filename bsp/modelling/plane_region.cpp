@@ -8,6 +8,8 @@
 #include <trisect/brep/brep_mesh.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/flat_prism.h>
+#include <trisect/bsp/solid_measure.h>
+#include <trisect/kernel/error.h>
 
 namespace trisect {
 namespace {
@@ -93,6 +95,24 @@ Solid solid_of_region(const PlaneRegion& region, double low, double high) {
         for (const std::uint32_t v : loop) outline.push_back(region.points[v]);
     }
     return flat_prism(outlines, OutlineRule::Positive, low, high);
+}
+
+PlaneRegion region_of_outlines(std::span<const FlatOutline> outlines, OutlineRule rule) {
+    return region_of_faces(flat_prism(outlines, rule, 0, 1), 1);
+}
+
+PlaneRegion region_of_outline(const FlatOutline& outline) {
+    return region_of_outlines({&outline, 1});
+}
+
+PlaneRegion region_of_prism(const Solid& prism) {
+    if (const auto flat = flat_outlines(prism)) return region_of_faces(prism, flat->high);
+    const auto box = bounds(prism);
+    if (!box) return {};
+    PlaneRegion out = region_of_faces(prism, box->hi[2]);
+    if (!evaluate(prism ^ solid_of_region(out, box->lo[2], box->hi[2])).is_empty())
+        throw UsageError("the solid is no prism along the z axis, or its corners are no doubles");
+    return out;
 }
 
 std::vector<Outline> outlines_of_prism(const Solid& prism) {

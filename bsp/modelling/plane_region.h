@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/brep/primitives/point_2d.h>
 #include <trisect/brep/triangulate.h>
+#include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/solid.h>
 
 namespace trisect {
@@ -29,6 +31,15 @@ enum class FacesLook : std::uint8_t { Up, Down };
                                           FacesLook look = FacesLook::Up);
 /// The same of what evaluate() returned, whose boundary does not meet itself.
 [[nodiscard]] PlaneRegion region_of_result_faces(const Solid& solid, double height, FacesLook look);
+
+/// The region of outlines that may overlap, cross or touch. Crossings that are no doubles are
+/// rounded, once. \throw LimitError for corners that are not finite
+[[nodiscard]] PlaneRegion region_of_outlines(std::span<const FlatOutline> outlines,
+                                             OutlineRule rule = OutlineRule::Odd);
+[[nodiscard]] PlaneRegion region_of_outline(const FlatOutline& outline);
+/// That of a prism along the z axis, whatever its heights.
+/// \throw UsageError for any other solid; UnsupportedError for an unbounded set
+[[nodiscard]] PlaneRegion region_of_prism(const Solid& prism);
 
 /// The outlines of a prism between z = 0 and z = 1, without corners that rounding made equal.
 [[nodiscard]] std::vector<Outline> outlines_of_prism(const Solid& prism);

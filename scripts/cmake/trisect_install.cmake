@@ -100,6 +100,13 @@ endif()
 set(private_headers
     brep/embedding_findings.h
     brep/curved/control_net.h
+    brep/level_set/level_crossings.h
+    brep/level_set/level_faces.h
+    brep/level_set/level_grid.h
+    brep/level_set/level_link.h
+    brep/level_set/level_snap.h
+    brep/level_set/level_values.h
+    brep/level_set/level_vertices.h
     brep/primitives/cap.h
     brep/primitives/circle.h
     brep/mend/divide_edges.h
@@ -112,8 +119,11 @@ set(private_headers
     brep/mend/open_edges.h
     brep/mend/orient_faces.h
     brep/mend/orient_shells.h
+    brep/primitives/degrees.h
     brep/validate/checked_mesh.h
     brep/contact/contact_filter.h
+    brep/contact/graph_corners.h
+    brep/contact/turned_points.h
     brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
     brep/validate/fans.h
@@ -138,6 +148,7 @@ set(private_headers
     bsp/csg/csg_region.h
     bsp/csg/csg_shapes.h
     bsp/modelling/convex_pieces.h
+    bsp/modelling/layered_walls.h
     bsp/modelling/mesh_section.h
     bsp/modelling/plane_sums.h
     bsp/modelling/plane_turn.h
@@ -157,6 +168,7 @@ foreach(
         brep/interop
         brep/io
         brep/mend
+        brep/level_set
         brep/primitives
         brep/validate
         bsp

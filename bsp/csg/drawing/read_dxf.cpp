@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/csg/drawing/degrees.h>
+#include <trisect/brep/primitives/degrees.h>
 #include <trisect/bsp/csg/drawing/dxf_groups.h>
 #include <trisect/bsp/csg/drawing/line_chains.h>
 

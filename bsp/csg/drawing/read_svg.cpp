@@ -10,7 +10,7 @@
 
 #include <trisect/brep/io/models/xml_reader.h>
 
-#include <trisect/bsp/csg/drawing/degrees.h>
+#include <trisect/brep/primitives/degrees.h>
 #include <trisect/bsp/csg/drawing/stroke_pieces.h>
 #include <trisect/bsp/csg/drawing/svg_page.h>
 #include <trisect/bsp/csg/drawing/svg_path.h>

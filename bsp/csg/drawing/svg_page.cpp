@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <trisect/bsp/csg/drawing/degrees.h>
+#include <trisect/brep/primitives/degrees.h>
 #include <trisect/bsp/csg/drawing/svg_path.h>
 #include <trisect/bsp/csg/drawing/svg_scanner.h>
 

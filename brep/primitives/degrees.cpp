@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/csg/drawing/degrees.h>
+#include <trisect/brep/primitives/degrees.h>
 
 #include <cmath>
 #include <numbers>
