@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <utility>
@@ -30,6 +31,12 @@
 #include <trisect/brep/transform.h>
 #include <trisect/brep/validate/defect.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/flat_prism.h>
+#include <trisect/bsp/modelling/extrusion.h>
+#include <trisect/bsp/modelling/level_set.h>
+#include <trisect/bsp/modelling/mirrored.h>
+#include <trisect/bsp/modelling/plane_region.h>
+#include <trisect/bsp/modelling/revolution.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
@@ -44,6 +51,15 @@ struct vec3 {
     double z = 0;
     friend bool operator==(const vec3&, const vec3&) = default;
 };
+
+struct vec2 {
+    double x = 0;
+    double y = 0;
+    friend bool operator==(const vec2&, const vec2&) = default;
+};
+using SimplePolygon = std::vector<vec2>;
+/// Counter-clockwise, holes clockwise.
+using Polygons = std::vector<SimplePolygon>;
 
 /// Four columns: where the axes go, and the translation.
 struct mat3x4 {
@@ -106,6 +122,15 @@ public:
     static Manifold Cylinder(double height, double radiusLow, double radiusHigh = -1,
                              int circularSegments = 0, bool center = false);
     static Manifold Sphere(double radius, int circularSegments = 0);
+    /// `nDivisions` more layers than one; counter-clockwise; 0, 0 makes a point of the top.
+    static Manifold Extrude(const Polygons& crossSection, double height, int nDivisions = 0,
+                            double twistDegrees = 0, vec2 scaleTop = {1, 1});
+    /// What is right of the y axis, turned about it, which becomes the z axis.
+    static Manifold Revolve(const Polygons& crossSection, int circularSegments = 0,
+                            double revolveDegrees = 360);
+    /// Where the function is above the level; cut off at the bounds, in their planes.
+    static Manifold LevelSet(const std::function<double(vec3)>& sdf, Box bounds, double edgeLength,
+                             double level = 0, double tolerance = -1, bool canParallel = true);
 
     [[nodiscard]] Manifold Boolean(const Manifold& second, OpType op) const {
         return BatchBoolean({*this, second}, op);
@@ -142,6 +167,8 @@ public:
     [[nodiscard]] Manifold Scale(vec3 by) const { return moved(AffineMap::scaling(array(by))); }
     /// About the axes x, y and z, in this order. Quarter turns are exact, other turns are rounded.
     [[nodiscard]] Manifold Rotate(double xDegrees, double yDegrees = 0, double zDegrees = 0) const;
+    /// In the plane through the origin across the normal. Of a normal of length 0 the empty solid.
+    [[nodiscard]] Manifold Mirror(vec3 normal) const;
     [[nodiscard]] Manifold Transform(const mat3x4& m) const {
         return moved({{{{m.x.x, m.y.x, m.z.x, m.w.x},
                         {m.x.y, m.y.y, m.z.y, m.w.y},
@@ -173,6 +200,7 @@ private:
     static Manifold original(const PolygonMesh& mesh, Embedding embedding = Embedding::Assume);
     static Manifold standing(PolygonMesh mesh, double height, bool center);
     static Solid below(vec3 normal, double offset);
+    static PlaneRegion region(const Polygons& polygons, bool right_half);
     [[nodiscard]] Manifold moved(const AffineMap& map) const;
     template <class Number, class Index>
     [[nodiscard]] MeshGLP<Number, Index> mesh() const;
@@ -297,6 +325,64 @@ inline Manifold Manifold::Sphere(double radius, int circularSegments) {
         make_uv_sphere(radius, static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(n / 2)));
 }
 
+inline PlaneRegion Manifold::region(const Polygons& polygons, bool right_half) {
+    std::vector<FlatOutline> outlines;
+    double most = 0;
+    for (const SimplePolygon& polygon : polygons) {
+        FlatOutline& outline = outlines.emplace_back();
+        for (const vec2& p : polygon) {
+            outline.push_back({p.x, p.y});
+            most = std::max({most, std::fabs(p.x), std::fabs(p.y)});
+        }
+    }
+    const Solid prism = flat_prism(outlines, OutlineRule::Positive, 0, 1);
+    if (!right_half || !(most > 0)) return region_of_prism(prism);
+    const std::array<FlatOutline, 1> right{
+        {{{0, -2 * most}, {2 * most, -2 * most}, {2 * most, 2 * most}, {0, 2 * most}}}};
+    return region_of_prism(evaluate(prism & flat_prism(right, OutlineRule::Odd, 0, 1)));
+}
+
+inline Manifold Manifold::Extrude(const Polygons& crossSection, double height, int nDivisions,
+                                  double twistDegrees, vec2 scaleTop) {
+    const PlaneRegion section = region(crossSection, false);
+    if (section.loops.empty() || !(height > 0)) return failed(Error::InvalidConstruction);
+    ExtrusionOptions options;
+    options.twist = twistDegrees;
+    options.scale = {std::max(scaleTop.x, 0.0), std::max(scaleTop.y, 0.0)};
+    options.divisions = static_cast<std::uint32_t>(std::max(nDivisions, 0)) + 1;
+    return original(extrusion_mesh(section, 0, height, options), Embedding::Check);
+}
+
+inline Manifold Manifold::Revolve(const Polygons& crossSection, int circularSegments,
+                                  double revolveDegrees) {
+    const PlaneRegion section = region(crossSection, true);
+    if (section.loops.empty() || !(revolveDegrees > 0)) return failed(Error::InvalidConstruction);
+    RevolutionOptions options;
+    options.angle = std::min(revolveDegrees, 360.0);
+    options.segments = default_segments;
+    // Theirs are of the angle, ours of the circle.
+    if (circularSegments > 2)
+        options.segments =
+            static_cast<std::uint32_t>(std::ceil(circularSegments * 360 / options.angle - 1e-9));
+    return original(revolution_mesh(section, options), Embedding::Check);
+}
+
+inline Manifold Manifold::LevelSet(const std::function<double(vec3)>& sdf, Box bounds,
+                                   double edgeLength, double level, double tolerance,
+                                   bool canParallel) {
+    LevelSetOptions options;
+    options.level = level;
+    options.threads = canParallel ? 0 : 1;
+    // The middle is tried every other time.
+    if (tolerance > 0 && tolerance < edgeLength)
+        options.root_steps =
+            2 * static_cast<std::uint32_t>(std::ceil(std::log2(edgeLength / tolerance)));
+    const auto value = [&](const Point3d& p) { return sdf({p[0], p[1], p[2]}); };
+    const PolygonMesh surface =
+        make_level_set(value, {array(bounds.min), array(bounds.max)}, edgeLength, options);
+    return surface.face_count() == 0 ? Manifold() : original(surface);
+}
+
 // Booleans ----------------------------------------------------------------------------------------
 
 inline Manifold Manifold::BatchBoolean(const std::vector<Manifold>& manifolds, OpType op) {
@@ -332,6 +418,11 @@ inline Manifold Manifold::Hull() const {
 inline Manifold Manifold::moved(const AffineMap& map) const {
     if (status_ != Error::NoError || IsEmpty()) return *this;
     return transformed(solid_, map);
+}
+
+inline Manifold Manifold::Mirror(vec3 normal) const {
+    if (normal == vec3{}) return status_ == Error::NoError ? Manifold() : *this;
+    return moved(mirror_map({normal.x, normal.y, normal.z, 0}));
 }
 
 inline Manifold Manifold::Rotate(double xDegrees, double yDegrees, double zDegrees) const {

@@ -13,8 +13,6 @@
 #include <trisect/bsp/interference/solid_interference.h>
 #include <trisect/trisect.h>
 
-#include "revolved.h"
-
 namespace {
 
 using namespace trisect;
@@ -31,8 +29,8 @@ void expect(bool holds, const char* what) {
 }
 
 Solid ring(double inner, double outer) {
-    const Solid whole =
-        Solid::from_mesh(revolved({{inner, -3}, {outer, -3}, {outer, 3}, {inner, 3}}, 60));
+    const Solid whole = revolution(
+        region_of_outline({{inner, -3}, {outer, -3}, {outer, 3}, {inner, 3}}), {.segments = 60});
     // The groove is wider than the balls by the play.
     const Solid groove = Solid::from_mesh(make_torus(middle, ball + 0.1, 60, 40));
     return evaluate(whole - groove);

@@ -10,8 +10,6 @@
 #include <trisect/bsp/interference/first_contact.h>
 #include <trisect/trisect.h>
 
-#include "revolved.h"
-
 namespace {
 
 using namespace trisect;
@@ -35,11 +33,11 @@ int main() {
     const auto outer_shape = [&](double dent) {
         std::vector<Point2d> outline{{0, dent}, {26, 0}};
         outline.insert(outline.end(), body.begin(), body.end());
-        return Solid::from_mesh(revolved(outline, 32));
+        return revolution(region_of_outline(outline));
     };
     const Solid filled = outer_shape(0);
-    const Solid inside = Solid::from_mesh(revolved(
-        {{0, 2}, {25, 2}, {28, 5}, {28, 70}, {22, 85}, {10, 95}, {10, 126}, {0, 126}}, 32));
+    const Solid inside = revolution(region_of_outline(
+        {{0, 2}, {25, 2}, {28, 5}, {28, 70}, {22, 85}, {10, 95}, {10, 126}, {0, 126}}));
     const Solid bottle = evaluate(filled - inside);
     expect(components(bottle).size() == 1, "the bottle is one part");
 

@@ -20,6 +20,8 @@ void bind_edited(py::module_& m);
 void bind_measures(py::module_& m);
 void bind_transforms(py::module_& m);
 void bind_primitives(py::module_& m);
+void bind_sweeps(py::module_& m);
+void bind_fields(py::module_& m);
 void bind_modelling(py::module_& m);
 void bind_slices(py::module_& m);
 void bind_files(py::module_& m);

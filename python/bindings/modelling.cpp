@@ -13,6 +13,7 @@
 #include <trisect/bsp/modelling/hull_of_solids.h>
 #include <trisect/bsp/modelling/minkowski.h>
 #include <trisect/bsp/modelling/offset.h>
+#include <trisect/bsp/modelling/offset_of_solid.h>
 #include <trisect/bsp/modelling/projection.h>
 
 #include "bind.h"
@@ -67,6 +68,51 @@ corners and their sums are doubles.
             });
         },
         py::arg("other"), "All points to which the other solid can be moved within this one.");
+}
+
+SolidOffsetOptions::Shape shape_of(const std::string& word) {
+    if (word == "ball") return SolidOffsetOptions::Shape::Ball;
+    if (word == "cube") return SolidOffsetOptions::Shape::Cube;
+    if (word == "octahedron") return SolidOffsetOptions::Shape::Octahedron;
+    throw UsageError("shape: must be 'ball', 'cube', 'octahedron' or a Solid, not '" + word + "'");
+}
+
+void bind_grow(py::class_<Solid>& c) {
+    c.def(
+        "grow",
+        [](const Solid& s, double distance, const py::object& shape, std::uint32_t subdivisions,
+           bool around) {
+            SolidOffsetOptions options;
+            options.subdivisions = subdivisions;
+            if (around) options.fit = SolidOffsetOptions::Fit::Around;
+            if (py::isinstance<Solid>(shape)) {
+                const Solid tool = shape.cast<const Solid&>();
+                return run_on_threads([&](std::uint32_t threads) {
+                    options.minkowski.evaluate.threads = threads;
+                    return offset_of_solid(s, distance, tool, options.minkowski);
+                });
+            }
+            options.shape = shape_of(shape.cast<std::string>());
+            return run_on_threads([&](std::uint32_t threads) {
+                options.minkowski.evaluate.threads = threads;
+                return offset_of_solid(s, distance, options);
+            });
+        },
+        py::arg("distance"), py::kw_only(), py::arg("shape") = "ball", py::arg("subdivisions") = 1,
+        py::arg("around") = false, R"(The solid grown by a distance, or shrunk by less than 0.
+
+The Minkowski sum, or difference, with a polyhedron. It stands for a ball: with 0 to 3 subdivisions
+its faces are as far from its centre as 0.79, 0.93, 0.98 and 0.995 of the distance.
+
+Parameters
+----------
+distance : float
+shape : {'ball', 'cube', 'octahedron'} or Solid
+    Another solid takes the place of a ball of radius 1.
+subdivisions : int
+around : bool
+    Whether the ball is within the polyhedron, in place of around it.
+)");
 }
 
 void bind_plane(py::class_<Solid>& c) {
@@ -144,6 +190,7 @@ folder : str or None
 void bind_modelling(py::module_& m) {
     py::class_<Solid> c = solid_class(m);
     bind_hulls(c);
+    bind_grow(c);
     bind_plane(c);
     bind_programs(c);
 }

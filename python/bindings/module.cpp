@@ -21,6 +21,8 @@ PYBIND11_MODULE(_trisect, m) {
     bind_measures(m);
     bind_transforms(m);
     bind_primitives(m);
+    bind_sweeps(m);
+    bind_fields(m);
     bind_modelling(m);
     bind_files(m);
     bind_queries(m);

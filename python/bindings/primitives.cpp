@@ -11,7 +11,6 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/cylinder.h>
-#include <trisect/brep/primitives/extrusion.h>
 #include <trisect/brep/primitives/hull.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
@@ -40,27 +39,6 @@ Parameters
 ----------
 low, high : array_like, shape (3,)
     ``box(size)`` has one corner at the origin.
-)");
-    c.def_static(
-        "extrude",
-        [](const py::object& outline, double low, double high, const py::iterable& holes) {
-            std::vector<Outline> inner;
-            for (const py::handle hole : holes)
-                inner.push_back(outline_of(py::reinterpret_borrow<py::object>(hole), "holes"));
-            return solid_of_mesh(make_extrusion(outline_of(outline, "outline"), inner, low, high));
-        },
-        py::arg("outline"), py::arg("low"), py::arg("high"), py::kw_only(),
-        py::arg("holes") = py::tuple(),
-        R"(What is over the inside of an outline, between two heights.
-
-Parameters
-----------
-outline : array_like, shape (n, 2)
-    A simple polygon of either orientation.
-low, high : float
-    Heights along z.
-holes : iterable of array_like, shape (n, 2)
-    Inside the outline and apart from each other.
 )");
 }
 

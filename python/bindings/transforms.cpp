@@ -2,6 +2,7 @@
 //
 // Moved solids, and solids in two parts.
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@
 
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/modelling/mirrored.h>
+#include <trisect/bsp/modelling/resized.h>
 #include <trisect/bsp/solid_transform.h>
 
 #include "arrays.h"
@@ -125,10 +128,44 @@ factor : float or array_like, shape (3,)
     c.def(
         "mirror",
         [](const Solid& s, const py::object& axis) {
+            if (py::isinstance<py::array>(axis) || PySequence_Check(axis.ptr()) != 0)
+                if (!py::isinstance<py::str>(axis)) {
+                    const Point3d normal = point_of(axis, "axis");
+                    return run([&] { return mirrored(s, normal); });
+                }
             return moved(s, AffineMap::mirror(axis_of(axis)));
         },
         py::arg("axis"),
-        "The solid mirrored in the coordinate plane perpendicular to 'x', 'y' or 'z'. Exact.");
+        R"(The solid mirrored in a plane through the origin.
+
+Exact in coordinate planes and between two axes; otherwise each vertex is rounded once.
+
+Parameters
+----------
+axis : {'x', 'y', 'z'} or array_like, shape (3,)
+    The normal of the plane, of any length.
+)");
+    c.def(
+        "resize",
+        [](const Solid& s, const py::object& size, const py::object& follow) {
+            const Point3d sizes = point_of(size, "size");
+            std::array<bool, 3> follows{};
+            if (py::isinstance<py::bool_>(follow))
+                follows.fill(follow.cast<bool>());
+            else
+                follows = follow.cast<std::array<bool, 3>>();
+            return run([&] { return resized(s, sizes, follows); });
+        },
+        py::arg("size"), py::kw_only(), py::arg("follow") = false,
+        R"(The solid scaled from the origin to a size, to within rounding.
+
+Parameters
+----------
+size : array_like, shape (3,)
+    Of its bounds. 0 leaves an axis as it is.
+follow : bool or tuple of three
+    Axes of size 0 that take the factor of the axis with the largest new size.
+)");
     c.def(
         "transform",
         [](const Solid& s, const py::object& map, bool report) {
@@ -179,6 +216,19 @@ Returns
 -------
 tuple of Solid
     Their union is this solid and they share no volume.
+)");
+    c.def(
+        "trim",
+        [](const Solid& s, const py::object& plane) {
+            const std::vector<double> v = numbers_of(plane, 4, "plane");
+            return evaluated(s - Solid::half_space({v[0], v[1], v[2], v[3]}));
+        },
+        py::arg("plane"), R"(The part on the side of a plane to which its normal points. Exact.
+
+Parameters
+----------
+plane : array_like, shape (4,)
+    Coefficients; the part has a x + b y + c z + d >= 0.
 )");
 }
 

@@ -351,7 +351,11 @@ class Solid:
     def translate(self, by: npt.ArrayLike) -> Solid: ...
     def rotate(self, axis: Union[str, npt.ArrayLike], degrees: float) -> Solid: ...
     def scale(self, factor: Union[float, npt.ArrayLike]) -> Solid: ...
-    def mirror(self, axis: Union[Literal["x", "y", "z"], int]) -> Solid: ...
+    def mirror(self, axis: Union[Literal["x", "y", "z"], int, npt.ArrayLike]) -> Solid: ...
+    def resize(
+        self, size: npt.ArrayLike, *, follow: Union[bool, Tuple[bool, bool, bool]] = False
+    ) -> Solid: ...
+    def trim(self, plane: npt.ArrayLike) -> Solid: ...
     @overload
     def transform(self, map: Union[Pose, npt.ArrayLike], *, report: Literal[False] = False) -> Solid: ...
     @overload
@@ -363,13 +367,56 @@ class Solid:
     def box(low: npt.ArrayLike, high: Optional[npt.ArrayLike] = None) -> Solid: ...
     @staticmethod
     def extrude(
-        outline: npt.ArrayLike, low: float, high: float, *, holes: Iterable[npt.ArrayLike] = ()
+        outline: npt.ArrayLike,
+        low: float,
+        high: float,
+        *,
+        holes: Iterable[npt.ArrayLike] = (),
+        twist: float = 0.0,
+        scale: Union[float, npt.ArrayLike] = 1.0,
+        divisions: int = 0,
+    ) -> Solid: ...
+    @staticmethod
+    def revolve(
+        outline: npt.ArrayLike,
+        angle: float = 360.0,
+        segments: int = 64,
+        *,
+        holes: Iterable[npt.ArrayLike] = (),
+        start: float = 0.0,
+    ) -> Solid: ...
+    @staticmethod
+    def level_set(
+        function: Callable[[_Floats], npt.ArrayLike],
+        low: npt.ArrayLike,
+        high: npt.ArrayLike,
+        edge_length: float,
+        *,
+        level: float = 0.0,
+        root_steps: int = 0,
+        max_cells: int = ...,
+    ) -> Solid: ...
+    @staticmethod
+    def height_field(
+        heights: npt.ArrayLike,
+        base: float = 0.0,
+        *,
+        spacing: npt.ArrayLike = ...,
+        origin: npt.ArrayLike = ...,
     ) -> Solid: ...
     @staticmethod
     def hull(points: npt.ArrayLike) -> Solid: ...
     def convex_hull(self, *others: Solid) -> Solid: ...
     def minkowski_sum(self, other: Solid) -> Solid: ...
     def minkowski_difference(self, other: Solid) -> Solid: ...
+    def grow(
+        self,
+        distance: float,
+        *,
+        shape: Union[Literal["ball", "cube", "octahedron"], Solid] = "ball",
+        subdivisions: int = 1,
+        around: bool = False,
+    ) -> Solid: ...
     def project(self, *, cut: Optional[float] = None) -> Solid: ...
     def offset(
         self,

@@ -68,6 +68,27 @@ int shapes_and_moves() {
     return is_near(solid.Scale({1, 2, 1}).Volume(), 72) ? 0 : 29;
 }
 
+int sweeps_and_levels() {
+    const manifold::Polygons square{{{1, 0}, {2, 0}, {2, 1}, {1, 1}}};
+    const Manifold bar = Manifold::Extrude(square, 3);
+    if (!is_near(bar.Volume(), 3)) return 60;
+    if (!is_near(bar.Mirror({2, 0, 0}).BoundingBox().min.x, -2)) return 61;
+    if (!is_near(bar.Mirror({1, -1, 0}).BoundingBox().min.y, 1)) return 62;
+    if (!is_near(Manifold::Extrude(square, 3, 0, 0, {0, 0}).Volume(), 1)) return 63;
+    const double twisted = Manifold::Extrude(square, 3, 30, 90).Volume();
+    if (twisted > 3 || twisted < 2.9) return 64;
+    if (!is_near(Manifold::Revolve(square, 4).Volume(), 6)) return 65;
+    const manifold::Polygons across{{{-1, 0}, {2, 0}, {2, 1}, {-1, 1}}};
+    if (!is_near(Manifold::Revolve(across, 4).Volume(), 8)) return 66;
+    if (!is_near(Manifold::Revolve(square, 3, 90).BoundingBox().max.y, 2)) return 67;
+    const auto ball = [](manifold::vec3 p) { return 1 - std::hypot(p.x, p.y, p.z); };
+    const manifold::Box box{{-2, -2, -2}, {2, 2, 2}};
+    if (std::abs(Manifold::LevelSet(ball, box, 0.2).Volume() - 4.19) > 0.15) return 68;
+    const double smaller = Manifold::LevelSet(ball, box, 0.2, 0.5, 0.01).Volume();
+    if (std::abs(smaller - 0.52) > 0.05) return 69;
+    return Manifold::Extrude({}, 1).Status() == Manifold::Error::InvalidConstruction ? 0 : 70;
+}
+
 int meshes() {
     const Manifold solid(tetrahedron());
     const Manifold part = solid - Manifold::Cube({1, 1, 1});
@@ -104,7 +125,7 @@ int meshes() {
 }  // namespace
 
 int main() {
-    for (const auto test : {booleans, shapes_and_moves, meshes})
+    for (const auto test : {booleans, shapes_and_moves, sweeps_and_levels, meshes})
         if (const int failure = test(); failure != 0) return failure;
     return 0;
 }
