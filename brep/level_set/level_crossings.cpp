@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    void add_row(GridPoint p, std::int32_t count) {
+    void add_row(NodePoint p, std::int32_t count) {
         check_stop(static_cast<std::uint64_t>(count));
         std::size_t node = grid_.number(p);
         for (std::int32_t i = 0; i < count; ++i, ++node, p[0] += 2)
@@ -68,7 +68,7 @@ private:
     }
 
     /// Whether it is plain that all ends of its edges are on its side.
-    [[nodiscard]] bool is_alone(const GridPoint& p, std::size_t node) const {
+    [[nodiscard]] bool is_alone(const NodePoint& p, std::size_t node) const {
         if (!grid_.is_inner(p)) return false;
         const std::int8_t sign = signs_[node];
         const bool is_centre = p[0] % 2 != 0;
@@ -80,7 +80,7 @@ private:
             offsets_, [&](std::size_t offset) { return signs_[corner + offset] == sign; });
     }
 
-    void add_edges_from(const GridPoint& p, std::size_t node) {
+    void add_edges_from(const NodePoint& p, std::size_t node) {
         const bool is_centre = p[0] % 2 != 0;
         for (int d = is_centre ? 0 : LevelGrid::short_directions; d < LevelGrid::directions; ++d)
             if (grid_.is_edge(p, d) && signs_[node] != signs_[grid_.number(LevelGrid::along(p, d))])
@@ -96,7 +96,7 @@ private:
 }  // namespace
 
 Point3d place_on_edge(const LevelGrid& grid, const LevelCrossing& crossing) {
-    const GridPoint p = grid.point(crossing.node);
+    const NodePoint p = grid.point(crossing.node);
     const Point3d a = grid.place(p);
     const Point3d b = grid.place(LevelGrid::along(p, crossing.direction));
     Point3d out{};

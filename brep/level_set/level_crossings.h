@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LevelCrossings: where edges of a grid cross a level.
+// LevelCrossing: crossings of edges of a grid with a level.
 #pragma once
 
 #include <cstddef>

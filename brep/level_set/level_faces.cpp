@@ -15,7 +15,7 @@ namespace trisect::detail {
 namespace {
 
 struct Node {
-    GridPoint at{};
+    NodePoint at{};
     std::int8_t sign = 0;
 };
 /// Both pairs are of one kind each: corners of cells, or centres.
@@ -75,9 +75,9 @@ private:
     void add_square(const std::array<std::int32_t, 3>& cell, std::size_t axis) {
         const std::size_t u = (axis + 1) % 3;
         const std::size_t v = (axis + 2) % 3;
-        const GridPoint corner{2 * cell[0], 2 * cell[1], 2 * cell[2]};
+        const NodePoint corner{2 * cell[0], 2 * cell[1], 2 * cell[2]};
         const std::size_t first = grid_.number(corner);
-        const GridPoint high{corner[0] + 1, corner[1] + 1, corner[2] + 1};
+        const NodePoint high{corner[0] + 1, corner[1] + 1, corner[2] + 1};
         const std::size_t centre = grid_.number(high);
         const auto& steps = grid_.corner_steps();
         const std::array<std::size_t, 4> numbers{first, first + steps[u],
@@ -95,7 +95,7 @@ private:
         square[2].at[u] += 2;
         square[2].at[v] += 2;
         square[3].at[v] += 2;
-        GridPoint low = high;
+        NodePoint low = high;
         low[axis] -= 2;
         const Node bottom{low, below};
         const Node top{high, above};
@@ -142,7 +142,7 @@ private:
     /// Of the node across the face of a tetrahedron without one of its corners.
     [[nodiscard]] std::int8_t sign_beyond(const Tetrahedron& t, const Node& corner) const {
         const std::size_t pair = corner.at == t[0].at || corner.at == t[1].at ? 2 : 0;
-        GridPoint beyond{};
+        NodePoint beyond{};
         for (std::size_t k = 0; k < 3; ++k)
             beyond[k] = t[pair].at[k] + t[pair + 1].at[k] - corner.at[k];
         return signs_[grid_.number(beyond)];

@@ -65,7 +65,7 @@ LevelGrid::LevelGrid(const Bounds& box, double edge_length, std::uint64_t most_c
     }
 }
 
-std::size_t LevelGrid::number(const GridPoint& p) const {
+std::size_t LevelGrid::number(const NodePoint& p) const {
     const bool is_centre = p[0] % 2 != 0;
     std::size_t out = is_centre ? corner_count_ : 0;
     for (std::size_t k = 0; k < 3; ++k)
@@ -74,11 +74,11 @@ std::size_t LevelGrid::number(const GridPoint& p) const {
     return out;
 }
 
-GridPoint LevelGrid::point(std::size_t number) const {
+NodePoint LevelGrid::point(std::size_t number) const {
     const bool is_centre = number >= corner_count_;
     if (is_centre) number -= corner_count_;
     const auto& steps = is_centre ? centre_steps_ : corner_steps_;
-    GridPoint out{};
+    NodePoint out{};
     for (std::size_t k = 3; k-- > 0;) {
         out[k] = static_cast<std::int32_t>(number / steps[k]) * 2 - (is_centre ? 1 : 0);
         number %= steps[k];
@@ -86,13 +86,13 @@ GridPoint LevelGrid::point(std::size_t number) const {
     return out;
 }
 
-Point3d LevelGrid::place(const GridPoint& p) const {
+Point3d LevelGrid::place(const NodePoint& p) const {
     Point3d out{};
     for (std::size_t k = 0; k < 3; ++k) out[k] = planes_[k][static_cast<std::size_t>(p[k] + 1)];
     return out;
 }
 
-bool LevelGrid::is_node(const GridPoint& p) const {
+bool LevelGrid::is_node(const NodePoint& p) const {
     int beyond = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         if (p[k] < -1 || p[k] > 2 * cells_[k] + 1) return false;
@@ -101,14 +101,14 @@ bool LevelGrid::is_node(const GridPoint& p) const {
     return beyond <= 1;
 }
 
-bool LevelGrid::is_inner(const GridPoint& p) const {
+bool LevelGrid::is_inner(const NodePoint& p) const {
     for (std::size_t k = 0; k < 3; ++k)
         if (p[k] <= 0 || p[k] >= 2 * cells_[k]) return false;
     return true;
 }
 
-GridPoint LevelGrid::along(const GridPoint& p, int direction) {
-    GridPoint out = p;
+NodePoint LevelGrid::along(const NodePoint& p, int direction) {
+    NodePoint out = p;
     if (direction >= short_directions) {
         out[static_cast<std::size_t>(direction - short_directions)] += 2;
         return out;
@@ -118,9 +118,9 @@ GridPoint LevelGrid::along(const GridPoint& p, int direction) {
     return out;
 }
 
-bool LevelGrid::is_edge(const GridPoint& p, int direction) const {
+bool LevelGrid::is_edge(const NodePoint& p, int direction) const {
     const bool is_centre = p[0] % 2 != 0;
-    const GridPoint q = along(p, direction);
+    const NodePoint q = along(p, direction);
     if (direction >= short_directions) {
         // Between centres on one side of the box there are corners.
         const auto axis = static_cast<std::size_t>(direction - short_directions);

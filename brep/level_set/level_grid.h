@@ -14,7 +14,7 @@
 namespace trisect::detail {
 
 /// In halves of cells from the low corner of the box: corners of cells are even, centres odd.
-using GridPoint = std::array<std::int32_t, 3>;
+using NodePoint = std::array<std::int32_t, 3>;
 
 /// Two cells with a common face share four tetrahedra: both centres, and an edge of the face. On
 /// the sides of the box the centre of the face takes the place of the cell that is not there: it is
@@ -37,18 +37,18 @@ public:
     [[nodiscard]] const std::array<std::size_t, 3>& corner_steps() const { return corner_steps_; }
     [[nodiscard]] const std::array<std::size_t, 3>& centre_steps() const { return centre_steps_; }
 
-    [[nodiscard]] std::size_t number(const GridPoint& p) const;
-    [[nodiscard]] GridPoint point(std::size_t number) const;
-    [[nodiscard]] Point3d place(const GridPoint& p) const;
+    [[nodiscard]] std::size_t number(const NodePoint& p) const;
+    [[nodiscard]] NodePoint point(std::size_t number) const;
+    [[nodiscard]] Point3d place(const NodePoint& p) const;
 
-    [[nodiscard]] bool is_node(const GridPoint& p) const;
+    [[nodiscard]] bool is_node(const NodePoint& p) const;
     /// Whether it has all 14 neighbours and is on no side of the box.
-    [[nodiscard]] bool is_inner(const GridPoint& p) const;
+    [[nodiscard]] bool is_inner(const NodePoint& p) const;
 
     /// Edges of the grid have a first end and a direction: from a centre to the corners of its cell
     /// (bits 0 to 2: up along x, y, z), or up along an axis to the next node of its kind (8 to 10).
-    [[nodiscard]] static GridPoint along(const GridPoint& p, int direction);
-    [[nodiscard]] bool is_edge(const GridPoint& p, int direction) const;
+    [[nodiscard]] static NodePoint along(const NodePoint& p, int direction);
+    [[nodiscard]] bool is_edge(const NodePoint& p, int direction) const;
 
 private:
     std::array<std::int32_t, 3> cells_{};

@@ -88,9 +88,9 @@ private:
 
 std::span<const Triangle> LevelLink::triangles() { return all_triangles; }
 
-GridPoint LevelLink::neighbour(const GridPoint& p, int which) {
+NodePoint LevelLink::neighbour(const NodePoint& p, int which) {
     if (which < LevelGrid::short_directions) return LevelGrid::along(p, which);
-    GridPoint out = p;
+    NodePoint out = p;
     out[static_cast<std::size_t>(which - 8) / 2] += which % 2 == 0 ? -2 : 2;
     return out;
 }

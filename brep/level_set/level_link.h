@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LevelLink: what is around a node of a grid of tetrahedra.
+// LevelLink: neighbours of a node of a grid of tetrahedra.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ public:
     using Triangle = std::array<std::uint8_t, 3>;
 
     [[nodiscard]] static std::span<const Triangle> triangles();
-    [[nodiscard]] static GridPoint neighbour(const GridPoint& p, int which);
+    [[nodiscard]] static NodePoint neighbour(const NodePoint& p, int which);
 
     /// Whether the surface between 1 and -1 goes around the node once: where signs of neighbours
     /// are 1, -1 or 0, and corners of 0 are on the surface, it meets the triangles in one closed

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes around where a function of space is above a level, within a box.
+// Level sets: boundaries of sets where a function is above a level.
 //
-// The box is filled with tetrahedra of a body-centred cubic grid, and the surface within each of
-// them is that of the linear function through the values at its corners (Doi, Koide 1991). Vertices
-// are on edges of the grid. A corner of the grid that is nearer to one than a quarter of the edge
-// moves there, where that leaves the surface a surface (Labelle, Shewchuk 2007): slivers are rare
-// then.
+// The set is taken within a box. The box is filled with tetrahedra of a body-centred cubic grid,
+// and the surface within each of them is that of the linear function through the values at its
+// corners (Doi, Koide 1991). Vertices are on edges of the grid. A corner of the grid that is nearer
+// to one than a quarter of the edge moves there, where that leaves the surface a surface (Labelle,
+// Shewchuk 2007): slivers are rare then.
 //
 // What is exact: the mesh is closed and does not touch itself, whatever the function is
 // (level_set_mesh.cpp has the proof). Faces along the sides of the box lie in them. What is

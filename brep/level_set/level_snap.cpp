@@ -36,7 +36,7 @@ public:
         for (const Candidate& c : candidates()) {
             check_stop();
             if (signs_[c.node] == 0 || signs_[c.other] == 0) continue;
-            const GridPoint p = grid_.point(c.node);
+            const NodePoint p = grid_.point(c.node);
             if (!grid_.is_inner(p)) continue;
             const Point3d place = place_on_edge(grid_, crossings_[c.crossing]);
             if (keeps_volumes(p, place)) take(p, c.node, place);
@@ -59,12 +59,12 @@ private:
         return out;
     }
 
-    Point3d place_of(const GridPoint& p) const {
+    Point3d place_of(const NodePoint& p) const {
         const std::size_t node = grid_.number(p);
         return signs_[node] == 0 ? moved_.at(node) : grid_.place(p);
     }
 
-    bool keeps_volumes(const GridPoint& p, const Point3d& place) const {
+    bool keeps_volumes(const NodePoint& p, const Point3d& place) const {
         std::array<Vector3, LevelLink::neighbours> around{};
         for (int i = 0; i < LevelLink::neighbours; ++i) {
             const Point3d q = place_of(LevelLink::neighbour(p, i));
@@ -76,18 +76,18 @@ private:
         });
     }
 
-    bool has_one_curve(const GridPoint& p) const {
+    bool has_one_curve(const NodePoint& p) const {
         std::array<std::int8_t, LevelLink::neighbours> around{};
         for (int i = 0; i < LevelLink::neighbours; ++i)
             around[static_cast<std::size_t>(i)] = signs_[grid_.number(LevelLink::neighbour(p, i))];
         return LevelLink::has_one_curve(around);
     }
 
-    void take(const GridPoint& p, std::size_t node, const Point3d& place) {
+    void take(const NodePoint& p, std::size_t node, const Point3d& place) {
         const std::int8_t before = std::exchange(signs_[node], std::int8_t{0});
         bool fits = has_one_curve(p);
         for (int i = 0; fits && i < LevelLink::neighbours; ++i) {
-            const GridPoint q = LevelLink::neighbour(p, i);
+            const NodePoint q = LevelLink::neighbour(p, i);
             if (signs_[grid_.number(q)] == 0) fits = has_one_curve(q);
         }
         if (fits)

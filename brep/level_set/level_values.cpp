@@ -55,7 +55,7 @@ LevelValues::LevelValues(const LevelGrid& grid, const BatchOfValues& function,
         places.clear();
         nodes.clear();
         for (std::size_t n = first; n < std::min(first + at_once, grid.size()); ++n) {
-            const GridPoint p = grid.point(n);
+            const NodePoint p = grid.point(n);
             if (!grid.is_node(p)) continue;
             places.push_back(grid.place(p));
             nodes.push_back(n);

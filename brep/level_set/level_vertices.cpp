@@ -9,17 +9,17 @@ namespace trisect::detail {
 namespace {
 
 /// The first end of the edge between two nodes, and its direction.
-std::pair<GridPoint, unsigned> edge_between(const GridPoint& p, const GridPoint& q) {
+std::pair<NodePoint, unsigned> edge_between(const NodePoint& p, const NodePoint& q) {
     const bool p_is_centre = p[0] % 2 != 0;
     const bool q_is_centre = q[0] % 2 != 0;
     if (p_is_centre == q_is_centre) {
         const bool is_up = p[0] < q[0] || p[1] < q[1] || p[2] < q[2];
-        const GridPoint& low = is_up ? p : q;
+        const NodePoint& low = is_up ? p : q;
         const unsigned axis = p[0] != q[0] ? 0 : p[1] != q[1] ? 1 : 2;
         return {low, LevelGrid::short_directions + axis};
     }
-    const GridPoint& centre = p_is_centre ? p : q;
-    const GridPoint& corner = p_is_centre ? q : p;
+    const NodePoint& centre = p_is_centre ? p : q;
+    const NodePoint& corner = p_is_centre ? q : p;
     unsigned direction = 0;
     for (unsigned k = 0; k < 3; ++k)
         if (corner[k] > centre[k]) direction |= 1U << k;
@@ -47,7 +47,7 @@ LevelVertices::LevelVertices(const LevelGrid& grid, std::span<const LevelCrossin
     }
 }
 
-bool LevelVertices::is_corner_of_side(const GridPoint& p) const {
+bool LevelVertices::is_corner_of_side(const NodePoint& p) const {
     return !grid_.is_inner(p) && grid_.is_node(p);
 }
 
@@ -65,9 +65,9 @@ void LevelVertices::add_edges(std::span<const LevelCrossing> crossings) {
     }
 }
 
-std::uint32_t LevelVertices::at_node(const GridPoint& p) const { return first_[grid_.number(p)]; }
+std::uint32_t LevelVertices::at_node(const NodePoint& p) const { return first_[grid_.number(p)]; }
 
-std::uint32_t LevelVertices::on_edge(const GridPoint& p, const GridPoint& q) const {
+std::uint32_t LevelVertices::on_edge(const NodePoint& p, const NodePoint& q) const {
     const auto [first, direction] = edge_between(p, q);
     const std::size_t node = grid_.number(first);
     const unsigned before = mask_[node] & (bit(direction) - 1U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// LevelVertices: vertices of the surface of a level set, by nodes and edges of the grid.
+// LevelVertices: vertices of level sets, by nodes and edges.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ public:
                   const std::vector<std::int8_t>& signs,
                   const std::unordered_map<std::size_t, Point3d>& moved);
 
-    [[nodiscard]] std::uint32_t at_node(const GridPoint& p) const;
+    [[nodiscard]] std::uint32_t at_node(const NodePoint& p) const;
     /// \pre an edge of the grid whose ends have the signs 1 and -1
-    [[nodiscard]] std::uint32_t on_edge(const GridPoint& p, const GridPoint& q) const;
+    [[nodiscard]] std::uint32_t on_edge(const NodePoint& p, const NodePoint& q) const;
     [[nodiscard]] const std::vector<Point3d>& places() const { return places_; }
 
 private:
@@ -34,7 +34,7 @@ private:
     static constexpr std::uint16_t itself = 1U << 15U;
 
     void add_node(std::size_t node, const Point3d& place);
-    [[nodiscard]] bool is_corner_of_side(const GridPoint& p) const;
+    [[nodiscard]] bool is_corner_of_side(const NodePoint& p) const;
     void add_edges(std::span<const LevelCrossing> crossings);
 
     const LevelGrid& grid_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Height fields: what is between a surface over a rectangular grid and a flat bottom.
+// Height fields: solids between heights over a grid and a bottom.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Walls between copies of a region, and its ends.
+// Faces between copies of a region, and its ends.
 #pragma once
 
 #include <cstddef>

@@ -44,6 +44,7 @@ int main() {{
     const Outline outline{{{{0, 0}}, {{4, 0}}, {{0, 4}}}};
     const std::vector<Outline> holes{{{{{{1, 1}}, {{2, 1}}, {{1, 2}}}}}};
     MeshMap map;
+    const auto f = [](const Point3d& p) {{ return 1 - p[0] * p[0] - p[1] * p[1] - p[2] * p[2]; }};
 {calls}
     return 0;
 }}
@@ -69,7 +70,8 @@ def run(page):
     box = Solid.box((1, 2, 3))
     names = {"np": np, "trisect": trisect, "Location": Location, "Solid": Solid, "union": union,
              "difference": difference, "a": Solid.box((2, 2, 2)), "b": Solid.box((1, 1, 1), (3, 3, 3)),
-             "c": box, "p": [(0, 0), (4, 0), (0, 4)], "m": np.eye(4), "m4": np.eye(4), "scene": Scene(),
+             "c": box, "p": [(0, 0), (4, 0), (0, 4)],
+             "q": [(1, 0), (2, 0), (2, 1)], "m": np.eye(4), "m4": np.eye(4), "scene": Scene(),
              "points": np.array([(1, 1, 1), (5.0, 0, 0)]), "directions": np.array([(0, 0, 1), (-1.0, 0, 0)])}
     count = 0
     with tempfile.TemporaryDirectory() as folder:
