@@ -151,7 +151,7 @@ PolygonMesh random_level_set(std::uint32_t seed) {
 void expect_sound(std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t seed = first; seed < first + count; ++seed) {
         const PolygonMesh mesh = random_level_set(seed);
-        if (mesh.face_count() > 0) ASSERT_TRUE(is_sound(mesh)) << seed;
+        ASSERT_TRUE(mesh.face_count() == 0 || is_sound(mesh)) << seed;
     }
 }
 
@@ -165,8 +165,8 @@ TEST(LevelSetMesh, RandomGridsFarAway) {
     for (int i = 0; i < 100; ++i) {
         const auto value = [&](const Point3d&) { return static_cast<double>(random() % 3) - 1; };
         const Bounds box{{far + 0.1, -far - 3.1, far + 0.3}, {far + 3.2, -far, far + 3.6}};
-        const PolygonMesh mesh = make_level_set(value, box, 1.05);
-        if (mesh.face_count() > 0) ASSERT_TRUE(is_sound(mesh)) << i;
+        const PolygonMesh mesh = make_level_set(value, box, 1.2);
+        ASSERT_TRUE(mesh.face_count() == 0 || is_sound(mesh)) << i;
     }
 }
 

@@ -70,13 +70,10 @@ TEST(OffsetOfSolid, PointsByTheirDistance) {
                 const SignedDistance at = *index.signed_distance(p);
                 const bool is_in = grown.locate(p).location != Location::Outside;
                 const double d = at.distance();
-                if (distance > 0) {
-                    if (d < low) EXPECT_TRUE(is_in) << d;
-                    if (d > high) EXPECT_FALSE(is_in) << d;
-                } else {
-                    if (-d > high) EXPECT_TRUE(is_in) << d;
-                    if (-d < low) EXPECT_FALSE(is_in) << d;
-                }
+                const bool must_be_in = distance > 0 ? d < low : -d > high;
+                const bool must_be_out = distance > 0 ? d > high : -d < low;
+                EXPECT_TRUE(is_in || !must_be_in) << d;
+                EXPECT_FALSE(is_in && must_be_out) << d;
             }
         }
 }
