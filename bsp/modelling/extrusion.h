@@ -23,8 +23,8 @@ struct ExtrusionOptions {
 };
 
 /// The region swept from one height to another. Between layers walls are two triangles, of which
-/// the shorter diagonal is an edge, so volumes are those of polyhedra: of a twisted region less
-/// than of the smooth sweep.
+/// the shorter diagonal is an edge: these bulge, so a twisted convex region has more volume than
+/// its smooth sweep, by a part that falls with the number of layers.
 ///
 /// Without twist and scale exact, with the region's corners as they are. Else each corner of each
 /// layer is rounded: by a few units in the last place of the region's largest coordinate. Where

@@ -19,8 +19,6 @@ namespace {
 using Shape = SolidOffsetOptions::Shape;
 using Fit = SolidOffsetOptions::Fit;
 
-std::string volume_of(const Solid& solid) { return exact_volume(solid).to_string(); }
-
 /// An L of two boxes: not convex.
 Solid bracket() {
     return evaluate(solids::box({0, 0, 0}, {4, 1, 1}) | solids::box({0, 0, 0}, {1, 1, 4}));
@@ -28,16 +26,16 @@ Solid bracket() {
 
 TEST(OffsetOfSolid, CubesAndOctahedraAreExact) {
     const Solid box = solids::box({0, 0, 0}, {1, 2, 3});
-    EXPECT_EQ(volume_of(offset_of_solid(box, 0.5, {.shape = Shape::Cube})), "24");
-    EXPECT_EQ(volume_of(offset_of_solid(box, -0.25, {.shape = Shape::Cube})), "15/8");
+    EXPECT_EQ(solids::volume(offset_of_solid(box, 0.5, {.shape = Shape::Cube})), "24");
+    EXPECT_EQ(solids::volume(offset_of_solid(box, -0.25, {.shape = Shape::Cube})), "15/8");
     EXPECT_TRUE(offset_of_solid(box, -0.5, {.shape = Shape::Cube}).is_empty());
     // Faces by their areas, edges by quarters of a square of area 2, corners by octants.
-    EXPECT_EQ(volume_of(offset_of_solid(box, 1, {.shape = Shape::Octahedron})), "124/3");
-    EXPECT_EQ(volume_of(offset_of_solid(box, 0)), "6");
+    EXPECT_EQ(solids::volume(offset_of_solid(box, 1, {.shape = Shape::Octahedron})), "124/3");
+    EXPECT_EQ(solids::volume(offset_of_solid(box, 0)), "6");
     EXPECT_TRUE(offset_of_solid(Solid(), 1).is_empty());
     const Solid tool = solids::box({-1, -1, 0}, {1, 1, 1});
-    EXPECT_EQ(volume_of(offset_of_solid(box, 0.5, tool)), "21");
-    EXPECT_EQ(volume_of(offset_of_solid(bracket(), 0.5, {.shape = Shape::Cube})), "32");
+    EXPECT_EQ(solids::volume(offset_of_solid(box, 0.5, tool)), "21");
+    EXPECT_EQ(solids::volume(offset_of_solid(bracket(), 0.5, {.shape = Shape::Cube})), "32");
 }
 
 TEST(OffsetOfSolid, BallsHaveTheRadiusThatIsPromised) {
