@@ -33,6 +33,7 @@
 #include <trisect/bsp/cell_tree_view.h>
 #include <trisect/bsp/certified_rounding.h>
 #include <trisect/bsp/edited_formula.h>
+#include <trisect/bsp/evaluate_all.h>
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/interference/boundary_distance.h>
 #include <trisect/bsp/interference/contact_certificate.h>
@@ -74,6 +75,7 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
+#include <trisect/bsp/split.h>
 #include <trisect/bsp/verify.h>
 #include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>

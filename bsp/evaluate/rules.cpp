@@ -258,20 +258,6 @@ constexpr std::array all_rules{
          CellRule{&may_be_divided, &CellSteps::divide}},
 };
 
-std::shared_ptr<SolidState> state_of(SolidForm form, const Residual& formula,
-                                     const SolidStates& solids, const EvaluateSettings& options) {
-    auto state = std::make_shared<SolidState>();
-    if (!solids.empty()) state->lattice = solids[0]->lattice;
-    state->form = std::move(form);
-    state->whole = std::ranges::all_of(solids, [](const auto& s) { return s->whole; });
-    if (auto* const tree = std::get_if<CellTree>(&state->form))
-        tree->has_usual_offsets =
-            options.splitting_offset == usual_splitting_offset &&
-            std::ranges::all_of(solids, [](const auto& s) { return s->tree().has_usual_offsets; });
-    state->far_out = far_out_of(formula, solids);
-    return state;
-}
-
 std::shared_ptr<const SolidState> tree_of(const Residual::Ref& formula, const SolidStates& solids,
                                           const EvaluateSettings& options) {
     EvaluateSettings settings = options;
@@ -307,20 +293,41 @@ std::span<const Rule> constant_rules() { return rules().subspan(formula_rows, co
 
 std::span<const Rule> polygon_rules() { return rules().subspan(formula_rows + constant_rows); }
 
+std::shared_ptr<SolidState> state_of_value(SolidForm form, const Residual& formula,
+                                           const SolidStates& solids,
+                                           const EvaluateSettings& options) {
+    auto state = std::make_shared<SolidState>();
+    if (!solids.empty()) state->lattice = solids[0]->lattice;
+    state->form = std::move(form);
+    state->whole = std::ranges::all_of(solids, [](const auto& s) { return s->whole; });
+    if (auto* const tree = std::get_if<CellTree>(&state->form))
+        tree->has_usual_offsets =
+            options.splitting_offset == usual_splitting_offset &&
+            std::ranges::all_of(solids, [](const auto& s) { return s->tree().has_usual_offsets; });
+    state->far_out = far_out_of(formula, solids);
+    return state;
+}
+
+std::shared_ptr<const LazyTree> lazy_tree_of(const Residual::Ref& formula,
+                                             const SolidStates& solids,
+                                             const EvaluateSettings& options) {
+    return std::make_shared<const LazyTree>(formula, solids, options, &tree_of);
+}
+
 std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule, const Residual::Ref& formula,
                                         const SolidStates& solids, const EvaluateSettings& options,
                                         EvaluateStats& stats) {
     if (!rule.applies(formula, solids, options)) return nullptr;
-    auto tree = std::make_shared<const LazyTree>(formula, solids, options, &tree_of);
-    auto form = rule.evaluate(formula, solids, options, stats, std::move(tree));
-    return form ? state_of(*std::move(form), *formula, solids, options) : nullptr;
+    auto form =
+        rule.evaluate(formula, solids, options, stats, lazy_tree_of(formula, solids, options));
+    return form ? state_of_value(*std::move(form), *formula, solids, options) : nullptr;
 }
 
 std::shared_ptr<SolidState> evaluate_tree(const Residual::Ref& formula, const SolidStates& solids,
                                           const EvaluateSettings& options, EvaluateStats& stats) {
     Evaluation evaluation = evaluate_formula(formula, solids, options);
     stats = evaluation.stats;
-    return state_of(std::move(evaluation.tree), *formula, solids, options);
+    return state_of_value(std::move(evaluation.tree), *formula, solids, options);
 }
 
 PolygonList arrange_deferred(const DeferredLeaf& leaf) {

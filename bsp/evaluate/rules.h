@@ -99,6 +99,15 @@ struct Rule {
 /// divides; where it does not serve, the cell is undividable, and these are walked once more.
 [[nodiscard]] std::span<const Rule> polygon_rules();
 
+/// The state of a formula's value in some form. `solids`: as below.
+[[nodiscard]] std::shared_ptr<SolidState> state_of_value(SolidForm form, const Residual& formula,
+                                                         const SolidStates& solids,
+                                                         const EvaluateSettings& options);
+/// The tree of a formula's value, by the rules for cells.
+[[nodiscard]] std::shared_ptr<const LazyTree> lazy_tree_of(const Residual::Ref& formula,
+                                                           const SolidStates& solids,
+                                                           const EvaluateSettings& options);
+
 /// The value of a formula by one rule; null where that does not apply or serve. `solids` are
 /// trees and lie on one lattice.
 [[nodiscard]] std::shared_ptr<SolidState> evaluate_by(const FormulaRule& rule,

@@ -7,16 +7,11 @@
 //
 // Planes that meet within the mesh would cut each other as well; they are left to the tree, as is a
 // plane through a corner.
-//
-// The value of a plane at a corner, its coefficients rounded: each of them is off by 2^-53 of
-// itself, a product by as much again and the three sums by at most three times that. In all less
-// than 6 · 2^-53 times the sum of magnitudes; 2^-50 of the largest such sum is taken.
 
 #include <trisect/bsp/half_spaces/between_half_spaces.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -24,11 +19,10 @@
 
 #include <trisect/bsp/cells/budget.h>
 #include <trisect/bsp/cells/crossings.h>
-#include <trisect/bsp/cells/trace/interpolation.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/divide/reference_points.h>
+#include <trisect/bsp/half_spaces/cutting_plane.h>
 #include <trisect/bsp/half_spaces/parallel_planes.h>
-#include <trisect/kernel/predicates.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -53,44 +47,11 @@ std::optional<std::size_t> slot_of_mesh(const SolidStates& solids) {
     return mesh;
 }
 
-// A plane in doubles, of which the result is on one side.
-class CuttingPlane {
-public:
-    CuttingPlane(const PlaneSide& side, std::size_t slot, const Box& box)
-        : plane_(side.plane), slot_(slot), keeps_below_(side.below) {
-        double size = std::fabs(plane_.approx_offset());
-        for (int k = 0; k < 3; ++k) {
-            const auto i = static_cast<std::size_t>(k);
-            normal_[i] = plane_.approx_normal(k);
-            const double reach = std::max(std::fabs(static_cast<double>(box.lo[i])),
-                                          std::fabs(static_cast<double>(box.hi[i])));
-            size += std::fabs(normal_[i]) * (reach + 1);
-        }
-        bound_ = 0x1p-50 * size;
-    }
-    [[nodiscard]] const Plane& plane() const { return plane_; }
-    [[nodiscard]] std::size_t slot() const { return slot_; }
-    [[nodiscard]] bool keeps_below() const { return keeps_below_; }
-    [[nodiscard]] double bound() const { return bound_; }
-    [[nodiscard]] double value(const LatticePoint& p) const {
-        const std::array<double, 3> c = p.doubles();
-        return ((normal_[0] * c[0] + normal_[1] * c[1]) + normal_[2] * c[2]) +
-               plane_.approx_offset();
-    }
-    /// -1 below, 0 on the plane, 1 above.
-    [[nodiscard]] int side(const LatticePoint& p) const {
-        const double v = value(p);
-        if (std::fabs(v) > bound_) [[likely]]
-            return v > 0 ? 1 : -1;
-        return sign_of(side_of(p, plane_));
-    }
-
-private:
-    Plane plane_;
-    std::size_t slot_;
-    bool keeps_below_;
-    std::array<double, 3> normal_{};
-    double bound_ = 0;
+// A plane of which the result is on one side.
+struct PlaneOfSlot {
+    CuttingPlane plane;
+    std::size_t slot = 0;
+    bool keeps_below = true;
 };
 
 // On which planes' wrong sides a corner is, a bit for each; the next bit: it is on a plane.
@@ -99,7 +60,7 @@ constexpr Sides on_a_plane = 4;
 
 class MeshCut {
 public:
-    MeshCut(const SolidStates& solids, std::size_t mesh, std::span<const CuttingPlane> planes,
+    MeshCut(const SolidStates& solids, std::size_t mesh, std::span<const PlaneOfSlot> planes,
             const EvaluateSettings& options, Crossings& crossings, EvaluateStats& stats)
         : source_(cut_source_of(*solids[mesh])),
           mesh_slot_(mesh),
@@ -143,9 +104,9 @@ private:
     [[nodiscard]] Sides sides_at(const LatticePoint& p) const {
         unsigned sides = 0;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
-            const int s = planes_[i].side(p);
+            const int s = planes_[i].plane.side(p);
             if (s == 0) return on_a_plane;
-            if ((s < 0) != planes_[i].keeps_below()) sides |= 1U << i;
+            if ((s < 0) != planes_[i].keeps_below) sides |= 1U << i;
         }
         return static_cast<Sides>(sides);
     }
@@ -173,39 +134,25 @@ private:
     // Seen from above the facet, the plane's lower side is to the left of the product of the
     // normals if the facet comes first, so the segment begins on the edge that goes up.
     [[nodiscard]] FacetCrossing crossing(std::uint32_t facet, std::size_t number) const {
-        const CuttingPlane& plane = planes_[number];
-        const bool is_second = plane.slot() < mesh_slot_;
+        const PlaneOfSlot& plane = planes_[number];
+        const bool is_second = plane.slot < mesh_slot_;
         FacetCrossing out;
         out.facets[is_second ? 1 : 0] = crossings_.number_of(mesh_slot_, facet);
-        out.facets[is_second ? 0 : 1] = crossings_.number_of(plane.slot(), 0);
+        out.facets[is_second ? 0 : 1] = crossings_.number_of(plane.slot, 0);
         for (int edge = 0; edge < 3; ++edge) {
             const bool from = is_above(facet, edge, number);
             const bool to = is_above(facet, edge == 2 ? 0 : edge + 1, number);
             if (from == to) continue;
             FacetCrossing::End& end = out.ends[to == is_second ? 1 : 0];
-            end = {pierced(facet, edge, plane), is_second, static_cast<std::int8_t>(edge)};
+            end = {pierced_by(plane.plane, source_, facet, edge), is_second,
+                   static_cast<std::int8_t>(edge)};
         }
         return out;
     }
 
     [[nodiscard]] bool is_above(std::uint32_t facet, int corner, std::size_t number) const {
         const bool is_wrong = (sides_[source_.corner_index(facet, corner)] >> number & 1U) != 0;
-        return is_wrong == planes_[number].keeps_below();
-    }
-
-    // Both facets of an edge go along it the same way, from the corner of the smaller number.
-    [[nodiscard]] Approximation pierced(std::uint32_t facet, int edge,
-                                        const CuttingPlane& plane) const {
-        const int next = edge == 2 ? 0 : edge + 1;
-        const bool turned = source_.corner_index(facet, edge) > source_.corner_index(facet, next);
-        const LatticePoint& from = source_.corner(facet, turned ? next : edge);
-        const LatticePoint& to = source_.corner(facet, turned ? edge : next);
-        Approximation at;
-        if (interpolate(approximate(from), plane.value(from), approximate(to), plane.value(to),
-                        2 * plane.bound(), at))
-            return at;
-        const Plane support = source_.support(facet);
-        return approximate(support, source_.edge_plane(facet, edge, support), plane.plane());
+        return is_wrong == planes_[number].keeps_below;
     }
 
     // The lists of all parts.
@@ -234,7 +181,7 @@ private:
 
     const Source& source_;
     std::size_t mesh_slot_;
-    std::span<const CuttingPlane> planes_;
+    std::span<const PlaneOfSlot> planes_;
     const EvaluateSettings& options_;
     MemoryBudget memory_;
     Crossings& crossings_;
@@ -244,8 +191,8 @@ private:
 };
 
 // The half-spaces that bound the result; nothing where this is not as simple.
-std::optional<std::vector<CuttingPlane>> cutting_planes(const SolidStates& solids, std::size_t mesh,
-                                                        const Crossings& crossings) {
+std::optional<std::vector<PlaneOfSlot>> cutting_planes(const SolidStates& solids, std::size_t mesh,
+                                                       const Crossings& crossings) {
     std::vector<PlaneSide> sides;
     std::vector<std::size_t> slots;
     for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -256,9 +203,10 @@ std::optional<std::vector<CuttingPlane>> cutting_planes(const SolidStates& solid
     }
     const auto tight = tight_sides(sides);
     if (!tight) return std::nullopt;
-    std::vector<CuttingPlane> out;
+    std::vector<PlaneOfSlot> out;
     for (const std::size_t i : *tight)
-        out.emplace_back(sides[i], slots[i], cut_source_of(*solids[mesh]).box());
+        out.push_back({CuttingPlane(sides[i].plane, cut_source_of(*solids[mesh]).box()), slots[i],
+                       sides[i].below});
     return out;
 }
 

@@ -64,4 +64,14 @@ std::optional<std::vector<std::size_t>> tight_sides(std::span<const PlaneSide> s
     return tight;
 }
 
+bool are_ascending(std::span<const Plane> planes) {
+    for (std::size_t i = 1; i < planes.size(); ++i) {
+        const Plane& before = planes[i - 1];
+        if (!are_parallel(before, planes[i]) || !look_alike({before, true}, {planes[i], true}) ||
+            side_of_plane(planes[i], before) <= 0)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace trisect::detail

@@ -24,4 +24,7 @@ struct PlaneSide {
 /// two of them are the same set of points, or where the intersection is empty.
 [[nodiscard]] std::optional<std::vector<std::size_t>> tight_sides(std::span<const PlaneSide> sides);
 
+/// Whether planes are parallel, look the same way, and each is above the one before. Exact.
+[[nodiscard]] bool are_ascending(std::span<const Plane> planes);
+
 }  // namespace trisect::detail

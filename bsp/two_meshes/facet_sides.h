@@ -39,6 +39,13 @@ public:
                                                                       std::size_t operand,
                                                                       bool outer_below, bool below,
                                                                       const LatticeMesh& other);
+    /// The same for other operations on the meshes with these crossings, where that had a value.
+    /// `fates`: as at first, of the same facets.
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> uncrossed_again(
+        std::span<const EqualFacets::Fate> fates, bool below) {
+        fates_ = fates;
+        return list_uncrossed(below);
+    }
     /// Of the facets that are crossed and have no equal, in order: whether their first corners lie
     /// below the other mesh's facets, where `below`, or above them. \pre uncrossed()
     [[nodiscard]] std::vector<Crossings::Corner> first_corners(bool below);

@@ -30,6 +30,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/cells/budget.h>
@@ -145,11 +146,29 @@ struct CubesOfBoth {
 
 using Fate = EqualFacets::Fate;
 
+// Whether one mesh is taken from the other one, on which it does not stand, and their boxes begin
+// and end at the same places along an axis: facets there would want opposite directions.
+bool are_flush_on_both_sides(const TwoMeshes& two, const Crossings& crossings) {
+    if (crossings.operands[0].inside_above == crossings.operands[1].inside_above) return false;
+    const Box& a = two.source(0).box();
+    const Box& b = two.source(1).box();
+    bool are_flush = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (a.lo[k] == b.hi[k] || b.lo[k] == a.hi[k]) return false;
+        are_flush = are_flush || (a.lo[k] == b.lo[k] && a.hi[k] == b.hi[k]);
+    }
+    return are_flush;
+}
+
 // What has been found out about two meshes.
 struct FoundPairs {
     Crossings crossings;
     std::optional<EqualFacets> equal;
     bool shares_facets = false;  ///< a facet bounds the result for both meshes
+    bool is_general = false;     ///< all pairs are in general position
+    /// The first move was as wanted and as wished. What one operation wants another one with the
+    /// same value of the first mesh wishes: their first move is the same, and as they wish.
+    bool has_first_move = false;
 };
 
 // Those with an equal facet, or those without.
@@ -198,6 +217,7 @@ private:
         start(false);
         FoundPairs out;
         InfinitesimalShift shift = first_shift();
+        out.has_first_move = true;
         // One finds equal facets, one another direction, which is as wanted.
         for (int turn = 0; turn < 3; ++turn) {
             const PairSearch::Outcome outcome = search(out, shift);
@@ -209,6 +229,7 @@ private:
             all.insert(all.end(), outcome.wished.begin(), outcome.wished.end());
             out.shares_facets = out.shares_facets || !outcome.wished.empty();
             auto next = shift_along(all);
+            out.has_first_move = out.has_first_move && outcome.is_as_wanted && outcome.is_as_wished;
             if (outcome.is_as_wanted && (outcome.is_as_wished || !next)) return finish(out, stats);
             if (!next) next = shift_along(outcome.wanted);
             if (!next) return std::nullopt;
@@ -284,18 +305,8 @@ private:
         return shift;
     }
 
-    // Whether one mesh is taken from the other one, on which it does not stand, and their boxes
-    // begin and end at the same places along an axis: facets there would want opposite directions.
     [[nodiscard]] bool are_flush_on_both_sides() const {
-        if (operands_.operands[0].inside_above == operands_.operands[1].inside_above) return false;
-        const Box& a = two_.source(0).box();
-        const Box& b = two_.source(1).box();
-        bool are_flush = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (a.lo[k] == b.hi[k] || b.lo[k] == a.hi[k]) return false;
-            are_flush = are_flush || (a.lo[k] == b.lo[k] && a.hi[k] == b.hi[k]);
-        }
-        return are_flush;
+        return trisect::detail::are_flush_on_both_sides(two_, operands_);
     }
 
     // Where one mesh stands on the other, the direction that will be wanted.
@@ -325,6 +336,7 @@ private:
 
     [[nodiscard]] FoundPairs finish(FoundPairs& out, EvaluateStats& stats) const {
         stats += found_;
+        out.is_general = found_.doubtful_pairs == 0 && !out.equal && out.crossings.special.empty();
         for (std::size_t i = 0; out.equal && i < 2; ++i)
             for (std::size_t k = 0; k < near_[i].size(); ++k)
                 if (out.equal->fates[i][k] != Fate::Own)
@@ -342,33 +354,56 @@ private:
     std::shared_ptr<const CornerMoves> moves_;
 };
 
-// What bounds the result and is not crossed, of either mesh, and the first corners of all others in
-// special position; nothing when that is not known.
-std::optional<TwoLists> facets_beside(const TwoMeshes& two, const CubeGrid& grid,
-                                      const std::array<std::optional<OccupiedCubes>, 2>& cubes,
-                                      const TwoLists& near, const SolidStates& solids,
-                                      bool parallel, FoundPairs& found) {
-    Crossings& crossings = found.crossings;
-    std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
-    std::array<std::vector<Crossings::Corner>, 2> corners;
-    const auto find = [&](std::size_t i) {
-        const Crossings::Operand& other = crossings.operands[1 - i];
-        const std::span<const Fate> fates =
-            found.equal ? std::span<const Fate>(found.equal->fates[i]) : std::span<const Fate>();
-        FacetSides sides(grid, *two.meshes[i], *cubes[i], cubes[1 - i]->cubes(), near[i], fates,
-                         threads_if(parallel));
-        facets[i] = sides.uncrossed(crossings, i, is_below_far_out(*solids[1 - i], other),
-                                    other.is_open_below(), *two.meshes[1 - i]);
-        if (facets[i] && !crossings.special.empty())
-            corners[i] = sides.first_corners(other.is_open_below());
-    };
-    do_both(
-        parallel, [&] { find(0); }, [&] { find(1); });
-    if (!facets[0] || !facets[1]) return std::nullopt;
-    for (const auto& c : corners)
-        crossings.first_corners.insert(crossings.first_corners.end(), c.begin(), c.end());
-    return TwoLists{*std::move(facets[0]), *std::move(facets[1])};
-}
+// The sides of the facets of both meshes, for all operations with the same crossings.
+class SidesOfBoth {
+public:
+    SidesOfBoth(const TwoMeshes& two, const CubesOfBoth& both, const TwoLists& near,
+                const SolidStates& solids, bool parallel)
+        : two_(two), both_(both), near_(near), solids_(solids), parallel_(parallel) {}
+
+    // What bounds the result and is not crossed, of either mesh, and the first corners of all
+    // others in special position; nothing when that is not known. `equal` outlives this.
+    [[nodiscard]] std::optional<TwoLists> list(Crossings& crossings,
+                                               const std::optional<EqualFacets>& equal) {
+        std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
+        std::array<std::vector<Crossings::Corner>, 2> corners;
+        const auto find = [&](std::size_t i) {
+            const bool below = crossings.operands[1 - i].is_open_below();
+            const std::span<const Fate> fates =
+                equal ? std::span<const Fate>(equal->fates[i]) : std::span<const Fate>();
+            facets[i] = list_of(i, crossings, fates, below);
+            if (facets[i] && !crossings.special.empty())
+                corners[i] = sides_[i]->first_corners(below);
+        };
+        do_both(
+            parallel_, [&] { find(0); }, [&] { find(1); });
+        if (!facets[0] || !facets[1]) return std::nullopt;
+        crossings.first_corners.clear();
+        for (const auto& c : corners)
+            crossings.first_corners.insert(crossings.first_corners.end(), c.begin(), c.end());
+        return TwoLists{*std::move(facets[0]), *std::move(facets[1])};
+    }
+
+private:
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> list_of(std::size_t i,
+                                                                    const Crossings& crossings,
+                                                                    std::span<const Fate> fates,
+                                                                    bool below) {
+        if (sides_[i]) return sides_[i]->uncrossed_again(fates, below);
+        sides_[i].emplace(*both_.grid, *two_.meshes[i], *both_.cubes[i],
+                          both_.cubes[1 - i]->cubes(), near_[i], fates, threads_if(parallel_));
+        return sides_[i]->uncrossed(crossings, i,
+                                    is_below_far_out(*solids_[1 - i], crossings.operands[1 - i]),
+                                    below, *two_.meshes[1 - i]);
+    }
+
+    const TwoMeshes& two_;
+    const CubesOfBoth& both_;
+    const TwoLists& near_;
+    const SolidStates& solids_;
+    bool parallel_;
+    std::array<std::optional<FacetSides>, 2> sides_;
+};
 
 // All facets of both meshes that bound the result, where they are far from each other.
 TwoLists facets_apart(const TwoMeshes& two, const SolidStates& solids, const Crossings& crossings) {
@@ -404,41 +439,51 @@ public:
     }
 
     // What bounds the result and is not crossed, of either mesh; nothing when that is not known.
-    // `crossings` has the operands.
+    // `crossings` has the operands. Crossings are those of the formula before where both have them
+    // in common.
     [[nodiscard]] std::optional<std::vector<UncrossedFacets>> find(Crossings& crossings,
                                                                    EvaluateStats& stats) {
-        if (!both_) return keep(facets_apart(two_, solids_, crossings), crossings, stats);
+        const bool is_first = std::exchange(is_first_, false);
+        if (!both_) {
+            times_shared_ += is_first ? 0 : 1;
+            return keep(facets_apart(two_, solids_, crossings), crossings, stats);
+        }
+        if (serves_again(crossings)) {
+            if (auto facets = list_again(crossings)) {
+                ++times_shared_;
+                return keep(*std::move(facets), crossings, stats);
+            }
+        }
         PairsOfMeshes pairs(two_, near_, options_, memory_, parallel_, crossings);
         for (const bool recognises_equal : {true, false}) {
             EvaluateStats found;
+            last_.reset();
             std::optional<FoundPairs> of_pairs = pairs.find(recognises_equal, found);
             if (!of_pairs) return std::nullopt;
-            auto facets = beside(*of_pairs);
+            last_.emplace(
+                Last{*std::move(of_pairs), {two_, *both_, near_, solids_, parallel_}, crossings});
+            auto facets = last_->sides.list(last_->found.crossings, last_->found.equal);
             // Where equal facets are all around others, nothing says on which side these are.
-            if (!facets && of_pairs->equal) continue;
-            if (!facets) return std::nullopt;
+            if (!facets && last_->found.equal) continue;
+            if (!facets) break;
             stats += found;
-            shares_facets_ = of_pairs->shares_facets;
-            is_general_ = found.doubtful_pairs == 0 && !of_pairs->equal &&
-                          of_pairs->crossings.special.empty();
-            crossings = std::move(of_pairs->crossings);
+            last_->found.has_first_move = last_->found.has_first_move && recognises_equal;
+            shares_facets_ = last_->found.shares_facets;
+            give(crossings);
             return keep(*std::move(facets), crossings, stats);
         }
+        last_.reset();
         return std::nullopt;
     }
 
-    // The same for another formula; `found` are the crossings of the one before.
-    [[nodiscard]] std::optional<std::vector<UncrossedFacets>> find_again(const Crossings& found,
-                                                                         Crossings& crossings,
-                                                                         EvaluateStats& stats) {
-        if (!both_ || !is_general_) return find(crossings, stats);
-        FoundPairs of_pairs{found, std::nullopt};
-        of_pairs.crossings.operands = std::move(crossings.operands);
-        auto facets = beside(of_pairs);
-        if (!facets) return std::nullopt;
-        crossings = std::move(of_pairs.crossings);
-        return keep(*std::move(facets), crossings, stats);
+    // What a search in special position has found says nothing on shares_facets() of others.
+    void forget_special_position() {
+        if (last_ && !last_->found.is_general) last_.reset();
     }
+    // After this no other formula is searched.
+    void end_with_next() { ends_with_next_ = true; }
+    // Calls of find() with the crossings of the one before.
+    [[nodiscard]] std::size_t times_shared() const { return times_shared_; }
 
     // Whether some facet bounds the result for both meshes, which cover it from opposite sides.
     [[nodiscard]] bool shares_facets() const { return shares_facets_; }
@@ -446,8 +491,43 @@ public:
 private:
     [[nodiscard]] std::uint32_t threads() const { return threads_if(parallel_); }
 
-    [[nodiscard]] std::optional<TwoLists> beside(FoundPairs& found) const {
-        return facets_beside(two_, *both_->grid, both_->cubes, near_, solids_, parallel_, found);
+    // The last search.
+    struct Last {
+        FoundPairs found;
+        SidesOfBoth sides;
+        Crossings operands;
+    };
+
+    // Whether the crossings of the last search are those that another formula would find. In
+    // general position nothing depends on it.
+    [[nodiscard]] bool serves_again(const Crossings& crossings) const {
+        if (!last_) return false;
+        if (last_->found.is_general) return true;
+        return last_->found.has_first_move &&
+               crossings.operands[0].is_open_below() ==
+                   last_->operands.operands[0].is_open_below() &&
+               !are_flush_on_both_sides(two_, crossings);
+    }
+
+    [[nodiscard]] std::optional<TwoLists> list_again(Crossings& crossings) {
+        FoundPairs& found = last_->found;
+        if (found.equal)
+            found.equal.emplace(two_.meshes, near_,
+                                std::array{crossings.operands[0], crossings.operands[1]});
+        found.crossings.operands = crossings.operands;
+        auto facets = last_->sides.list(found.crossings, found.equal);
+        if (facets) give(crossings);
+        return facets;
+    }
+
+    // What was found, to the last formula without a copy.
+    void give(Crossings& crossings) {
+        if (ends_with_next_) {
+            crossings = std::move(last_->found.crossings);
+            last_.reset();
+        } else {
+            crossings = last_->found.crossings;
+        }
     }
 
     std::vector<UncrossedFacets> keep(TwoLists facets, const Crossings& crossings,
@@ -471,8 +551,11 @@ private:
     std::optional<CubesOfBoth> both_;  // where the boxes of both meet
     std::array<MemoryBudget::Held, 2> held_;
     TwoLists near_;
+    std::optional<Last> last_;
+    std::size_t times_shared_ = 0;
+    bool is_first_ = true;
+    bool ends_with_next_ = false;
     bool shares_facets_ = false;
-    bool is_general_ = false;  // nothing was moved
 };
 
 // The operations that a formula is the sum of, without a part of space in common: an exclusive or
@@ -494,16 +577,20 @@ std::vector<Residual::Ref> disjoint_parts(const Residual::Ref& formula) {
 // The parts of an exclusive or, in which both meshes are turned the other way.
 std::optional<UndividedMeshes> find_parts(std::span<const Residual::Ref> parts,
                                           const SolidStates& solids, TwoMeshSearch& search,
-                                          EvaluateStats& stats) {
+                                          bool is_last, EvaluateStats& stats) {
+    const bool are_two = parts.size() > 1;
+    if (is_last && !are_two) search.end_with_next();
+    if (are_two) search.forget_special_position();
     Crossings crossings = *crossings_of(*parts[0], solids);
     auto uncrossed = search.find(crossings, stats);
     if (!uncrossed) return std::nullopt;
-    crossings.has_other_sides = parts.size() > 1;
+    crossings.has_other_sides = are_two;
     UndividedMeshes out{*std::move(uncrossed), nullptr, nullptr};
-    if (parts.size() > 1) {
+    if (are_two) {
         if (search.shares_facets()) return std::nullopt;
+        if (is_last) search.end_with_next();
         Crossings others = *crossings_of(*parts[1], solids);
-        auto beside = search.find_again(crossings, others, stats);
+        auto beside = search.find(others, stats);
         if (!beside) return std::nullopt;
         others.has_other_sides = true;
         out.beside = std::make_shared<const UndividedMeshes>(UndividedMeshes{
@@ -524,22 +611,42 @@ bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
     return two.smaller() >= least_facets && two.are_comparable() && two.have_outer_references();
 }
 
+std::vector<std::optional<UndividedMeshes>> evaluate_all_without_tree(
+    std::span<const Residual::Ref> formulas, const SolidStates& solids,
+    const EvaluateSettings& options, EvaluateStats& stats, std::size_t* shared) {
+    const TwoMeshes two(solids);
+    const bool parallel =
+        options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_facets;
+    EvaluateStats made;
+    std::vector<std::optional<UndividedMeshes>> out(formulas.size());
+    on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
+        TwoMeshSearch search(two, solids, options, parallel);
+        for (std::size_t i = 0; i < formulas.size(); ++i) {
+            EvaluateStats found;
+            const std::size_t before = search.times_shared();
+            const auto parts = disjoint_parts(formulas[i]);
+            out[i] = find_parts(parts, solids, search, i + 1 == formulas.size(), found);
+            if (out[i]) made += found;
+            if (shared != nullptr && out[i] && search.times_shared() == before + parts.size())
+                ++*shared;
+        }
+        return true;
+    });
+    const auto has_value = [](const auto& o) { return o.has_value(); };
+    if (std::ranges::none_of(out, has_value)) return out;
+    two.note_comparison();
+    stats = made;
+    return out;
+}
+
 std::optional<SolidForm> evaluate_without_tree(const Residual::Ref& formula,
                                                const SolidStates& solids,
                                                const EvaluateSettings& options,
                                                EvaluateStats& stats,
                                                std::shared_ptr<const LazyTree> tree) {
-    const TwoMeshes two(solids);
-    const bool parallel =
-        options.threads != 1 && two.larger() + two.smaller() >= 2 * parallel_facets;
-    EvaluateStats made;
-    auto found = on_threads(parallel ? options.threads : 1, [&](std::uint32_t) {
-        TwoMeshSearch search(two, solids, options, parallel);
-        return find_parts(disjoint_parts(formula), solids, search, made);
-    });
+    auto found = std::move(
+        evaluate_all_without_tree(std::span(&formula, 1), solids, options, stats, nullptr)[0]);
     if (!found) return std::nullopt;
-    two.note_comparison();
-    stats = made;
     found->tree = std::move(tree);
     return *std::move(found);
 }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/solid_state.h>
@@ -29,5 +31,13 @@ namespace trisect::detail {
                                                              const EvaluateSettings& options,
                                                              EvaluateStats& stats,
                                                              std::shared_ptr<const LazyTree> tree);
+
+/// The same for several formulas over the same meshes, in their order: facets are compared once
+/// where formulas have their crossings in common. Values are those that each formula has alone,
+/// without trees. `shared`, if not null: how often crossings were those of a formula before.
+/// \pre are_two_meshes() of each
+[[nodiscard]] std::vector<std::optional<UndividedMeshes>> evaluate_all_without_tree(
+    std::span<const Residual::Ref> formulas, const SolidStates& solids,
+    const EvaluateSettings& options, EvaluateStats& stats, std::size_t* shared);
 
 }  // namespace trisect::detail
