@@ -40,6 +40,7 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
+#include <trisect/bsp/split.h>
 #include <trisect/kernel/error.h>
 
 // NOLINTBEGIN(readability-identifier-naming): names are those of another library
@@ -142,9 +143,12 @@ public:
     Manifold& operator+=(const Manifold& other) { return *this = *this + other; }
     Manifold& operator-=(const Manifold& other) { return *this = *this - other; }
     Manifold& operator^=(const Manifold& other) { return *this = *this ^ other; }
-    /// The common part, and the rest.
+    /// The common part, and the rest, from one evaluation.
     [[nodiscard]] std::pair<Manifold, Manifold> Split(const Manifold& cutter) const {
-        return {*this ^ cutter, *this - cutter};
+        for (const Manifold* m : {this, &cutter})
+            if (m->status_ != Error::NoError) return {failed(m->status_), failed(m->status_)};
+        SplitSolid parts = split(solid_, cutter.solid_);
+        return {std::move(parts.common), std::move(parts.rest)};
     }
     /// What is on the side of the plane to which its normal points.
     [[nodiscard]] Manifold TrimByPlane(vec3 normal, double originOffset) const {
@@ -152,8 +156,8 @@ public:
     }
     [[nodiscard]] std::pair<Manifold, Manifold> SplitByPlane(vec3 normal,
                                                              double originOffset) const {
-        const Manifold rest(below(normal, originOffset));
-        return {*this - rest, *this ^ rest};
+        auto [below_it, above_it] = Split(Manifold(below(normal, originOffset)));
+        return {std::move(above_it), std::move(below_it)};
     }
     [[nodiscard]] std::vector<Manifold> Decompose() const;
     static Manifold Compose(const std::vector<Manifold>& manifolds) {

@@ -3,11 +3,13 @@
 // Booleans, transforms, parts and measures of solids.
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
+#include <trisect/bsp/split.h>
 #include <trisect/bsp/verify.h>
 
 #include "call.h"
@@ -43,16 +45,18 @@ void write_both(trisect_solid** first, trisect_solid** second, Solid a, Solid b)
 }
 
 template <class Cutter>
-trisect_status split(const trisect_solid* solid, trisect_solid** first, trisect_solid** second,
-                     const char* first_name, const char* second_name, const Cutter& cutter) {
+trisect_status split_by(const trisect_solid* solid, trisect_solid** first, trisect_solid** second,
+                        const char* first_name, const char* second_name, const Cutter& cutter) {
     if (first != nullptr) *first = nullptr;
     if (second != nullptr) *second = nullptr;
     return c::call([&] {
         (void)required(first, first_name);
         (void)required(second, second_name);
         const Solid& s = required(solid, "solid").solid;
-        const Solid& by = cutter();
-        write_both(first, second, evaluated(s & by), evaluated(s - by));
+        EvaluateOptions options;
+        options.threads = c::limits_of_thread().threads;
+        SplitSolid parts = split(s, cutter(), options);
+        write_both(first, second, std::move(parts.common), std::move(parts.rest));
     });
 }
 
@@ -93,7 +97,7 @@ trisect_status trisect_complement(const trisect_solid* solid, trisect_solid** re
 
 trisect_status trisect_split_by_plane(const trisect_solid* solid, const double plane[4],
                                       trisect_solid** below, trisect_solid** above) {
-    return split(solid, below, above, "below", "above", [&] {
+    return split_by(solid, below, above, "below", "above", [&] {
         (void)required(plane, "plane");
         return Solid::half_space({plane[0], plane[1], plane[2], plane[3]});
     });
@@ -101,8 +105,8 @@ trisect_status trisect_split_by_plane(const trisect_solid* solid, const double p
 
 trisect_status trisect_split(const trisect_solid* solid, const trisect_solid* cutter,
                              trisect_solid** inside, trisect_solid** outside) {
-    return split(solid, inside, outside, "inside", "outside",
-                 [&]() -> const Solid& { return required(cutter, "cutter").solid; });
+    return split_by(solid, inside, outside, "inside", "outside",
+                    [&]() -> const Solid& { return required(cutter, "cutter").solid; });
 }
 
 trisect_status trisect_solid_transform(const trisect_solid* solid, const double rows[12],

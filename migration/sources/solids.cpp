@@ -11,6 +11,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
+#include <trisect/bsp/split.h>
 #include <trisect/kernel/error.h>
 
 #include "node.h"
@@ -33,7 +34,10 @@ bool is_other(const FacePiece& a, const FacePiece& b) {
 class Booleans {
 public:
     void add(Ptr node, bool flipped) {
-        if (clashes(node->solid(), flipped)) node = renamed(*node);
+        if (clashes(node->solid(), flipped)) {
+            node = renamed(*node);
+            has_renamed_ = true;
+        }
         const NamedSolid& s = node->solid();
         const auto first = static_cast<std::uint32_t>(result_.runs.size());
         for (Run run : s.runs) {
@@ -64,10 +68,20 @@ public:
 
     /// Cut by half-spaces, whose faces have a run of their own.
     Ptr cut(const Solid& half) {
+        add_run();
+        return finish(trisect::evaluate(solids_[0] - half));
+    }
+    void add_run() {
         result_.runs.push_back({.original = static_cast<int>(Manifold::ReserveIDs(1))});
-        result_.solid = trisect::evaluate(solids_[0] - half);
+    }
+    /// What was evaluated elsewhere.
+    Ptr finish(Solid solid) {
+        result_.solid = std::move(solid);
         return ManifoldNode::of_solid(std::move(result_), tolerance_);
     }
+    /// Whether some solid got other names than it has.
+    [[nodiscard]] bool has_renamed() const { return has_renamed_; }
+    [[nodiscard]] const std::vector<Solid>& solids() const { return solids_; }
 
 private:
     [[nodiscard]] bool clashes(const NamedSolid& s, bool flipped) const {
@@ -83,6 +97,7 @@ private:
     NamedSolid result_;
     std::vector<Solid> solids_;
     double tolerance_ = 0;
+    bool has_renamed_ = false;
 };
 
 Ptr boolean(const std::vector<Manifold>& manifolds, OpType op) {
@@ -158,12 +173,34 @@ Manifold Manifold::Compose(const std::vector<Manifold>& manifolds) {
     return BatchBoolean(manifolds, OpType::Add);
 }
 
+// Where one solid is on both sides, the difference has it under other names: then there are two
+// evaluations.
 std::pair<Manifold, Manifold> Manifold::Split(const Manifold& cutter) const {
-    return {*this ^ cutter, *this - cutter};
+    if (Status() != Error::NoError || cutter.Status() != Error::NoError)
+        return {*this ^ cutter, *this - cutter};
+    Booleans common;
+    Booleans rest;
+    for (Booleans* b : {&common, &rest}) {
+        b->add(node(), false);
+        b->add(cutter.node(), b == &rest);
+    }
+    if (common.has_renamed() || rest.has_renamed()) return {*this ^ cutter, *this - cutter};
+    trisect::SplitSolid parts = trisect::split(common.solids()[0], common.solids()[1]);
+    return {Manifold(common.finish(std::move(parts.common))),
+            Manifold(rest.finish(std::move(parts.rest)))};
 }
 
 std::pair<Manifold, Manifold> Manifold::SplitByPlane(vec3 normal, double originOffset) const {
-    return {TrimByPlane(normal, originOffset), TrimByPlane(-normal, -originOffset)};
+    if (Status() != Error::NoError || node()->is_empty()) return {*this, *this};
+    Booleans above;
+    Booleans under;
+    for (Booleans* b : {&above, &under}) {
+        b->add(node(), false);
+        b->add_run();
+    }
+    trisect::SplitSolid parts = trisect::split(above.solids()[0], below(normal, originOffset));
+    return {Manifold(above.finish(std::move(parts.rest))),
+            Manifold(under.finish(std::move(parts.common)))};
 }
 
 Manifold Manifold::TrimByPlane(vec3 normal, double originOffset) const {

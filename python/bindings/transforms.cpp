@@ -3,6 +3,7 @@
 // Moved solids, and solids in two parts.
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include <trisect/bsp/modelling/mirrored.h>
 #include <trisect/bsp/modelling/resized.h>
 #include <trisect/bsp/solid_transform.h>
+#include <trisect/bsp/split.h>
 
 #include "arrays.h"
 #include "bind.h"
@@ -194,7 +196,29 @@ UsageError
 
 // The parts of a solid inside and outside of another set.
 std::pair<Solid, Solid> parts(const Solid& s, const Solid& cutter) {
-    return {evaluated(s & cutter), evaluated(s - cutter)};
+    SplitSolid out = run_on_threads([&](std::uint32_t threads) {
+        EvaluateOptions options;
+        options.threads = threads;
+        return split(s, cutter, options);
+    });
+    return {std::move(out.common), std::move(out.rest)};
+}
+
+py::list slabs(const Solid& s, const py::iterable& planes) {
+    std::vector<std::array<double, 4>> all;
+    for (const py::handle plane : planes) {
+        const std::vector<double> v =
+            numbers_of(py::reinterpret_borrow<py::object>(plane), 4, "planes");
+        all.push_back({v[0], v[1], v[2], v[3]});
+    }
+    py::list out;
+    for (Solid& part : run_on_threads([&](std::uint32_t threads) {
+             EvaluateOptions options;
+             options.threads = threads;
+             return split(s, all, options);
+         }))
+        out.append(py::cast(std::move(part)));
+    return out;
 }
 
 void bind_split(py::class_<Solid>& c) {
@@ -215,7 +239,22 @@ cutter : Solid or array_like, shape (4,)
 Returns
 -------
 tuple of Solid
-    Their union is this solid and they share no volume.
+    Their union is this solid and they share no volume. Both come from one evaluation where that is
+    possible, and are what ``solid & cutter`` and ``solid - cutter`` are.
+)");
+    c.def("split_by_planes", &slabs, py::arg("planes"),
+          R"(The parts between planes: one more than there are planes.
+
+Parameters
+----------
+planes : sequence of array_like, shape (4,)
+    Coefficients (a, b, c, d) of each plane, at most 65536 of them.
+
+Returns
+-------
+list of Solid
+    What is below each plane and not below one before it, and last what is above all. Parallel planes
+    in ascending order give slabs, of a mesh in one pass. Parts may be empty.
 )");
     c.def(
         "trim",

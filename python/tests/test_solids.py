@@ -156,6 +156,13 @@ def test_components_and_split():
     assert (below.volume, above.volume) == (3, 1)
     assert (below | above).equals(bar)
     assert (below & above).is_empty
+    slabs = bar.split_by_planes([(1, 0, 0, -0.5), (1, 0, 0, -3)])
+    assert [s.volume for s in slabs] == [0.5, 2.5, 1]
+    assert [s.volume for s in bar.split_by_planes([])] == [4]
+    with pytest.raises(trisect.UsageError):
+        bar.split_by_planes([(0, 0, 0, 1)])
+    with pytest.raises(trisect.UsageError):
+        bar.split_by_planes([(0, 0, 1)])
 
 
 def test_solids_made_of_solids():
