@@ -130,6 +130,7 @@ std::string program_page(const CommandTable& table) {
         "trisect difference part.stl tool.off drill.ply \\-o result.obj\n"
         "trisect info result.obj \\-\\-exact\n"
         "trisect check scan.stl\n"
+        "trisect split part.stl \\-\\-plane z=12.5 \\-o below.stl above.stl\n"
         "trisect section result.obj \\-\\-plane z=12.5 \\-o slice.svg\n"
         ".EE\n.SH SEE ALSO\n";
     for (const CommandEntry& command : table.commands)

@@ -8,6 +8,7 @@ namespace trisect::app {
 SubCommands all_commands() {
     SubCommands out;
     out.push_back(std::make_unique<BooleanCommands>());
+    out.push_back(command_with(add_split_command, run_split));
     out.push_back(command_with(add_info_command, run_info));
     out.push_back(command_with(add_check_command, run_check));
     out.push_back(command_with(add_mend_command, run_mend));

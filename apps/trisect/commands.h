@@ -17,6 +17,9 @@ namespace trisect::app {
 void add_boolean_commands(CLI::App& app, BooleanOptions& options);
 [[nodiscard]] Outcome run_boolean(Session& session, const BooleanOptions& options);
 
+void add_split_command(CLI::App& app, SplitOptions& options);
+[[nodiscard]] Outcome run_split(Session& session, const SplitOptions& options);
+
 void add_info_command(CLI::App& app, InfoOptions& options);
 [[nodiscard]] Outcome run_info(Session& session, const InfoOptions& options);
 

@@ -67,6 +67,15 @@ struct BooleanOptions {
     bool resume = false;      ///< an interrupted run in slabs
 };
 
+struct SplitOptions {
+    std::vector<std::string> inputs;  ///< one, or two without planes
+    std::vector<PlaneRequest> planes;
+    std::vector<std::string> outputs;  ///< one for each part
+    OperandOptions operands;
+    bool exact = false;  ///< also the volumes as fractions
+    bool certificate = true;
+};
+
 struct InfoOptions {
     std::string input;
     bool exact = false;

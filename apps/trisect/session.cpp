@@ -30,4 +30,16 @@ void Session::write_output(const std::string& name, std::string_view bytes, Outp
     write_file(name, bytes, safety);
 }
 
+void Session::write_outputs(const std::vector<OutputBytes>& files) {
+    std::vector<OutputBytes> regular;
+    for (const OutputBytes& file : files) {
+        if (file.path == "-") continue;
+        supervisor_.watch_output(file.path);
+        regular.push_back(file);
+    }
+    write_files(regular);
+    for (const OutputBytes& file : files)
+        if (file.path == "-") write_descriptor(1, "standard output", file.bytes);
+}
+
 }  // namespace trisect::app

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <trisect/brep/io/output_file.h>
 #include <trisect/kernel/stop_scope.h>
@@ -55,6 +56,9 @@ public:
     /// Writes bytes of a result to the standard output ("-") or completely or not at all to a file.
     void write_output(const std::string& name, std::string_view bytes,
                       OutputSafety safety = OutputSafety::Renamed);
+
+    /// The same for several files: all of them or none.
+    void write_outputs(const std::vector<OutputBytes>& files);
 
 private:
     class Timer {

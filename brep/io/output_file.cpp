@@ -11,7 +11,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <memory>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -90,6 +92,7 @@ public:
     ~TemporaryFile() {
         if (descriptor_ >= 0) ::close(descriptor_);
         if (!gone_) ::unlink(path_.c_str());
+        if (!kept_.empty()) ::unlink(kept_.c_str());
     }
 
     void set_mode(mode_t mode) noexcept { (void)::fchmod(descriptor_, mode & 0777); }
@@ -105,6 +108,20 @@ public:
     void rename_to_target() {
         if (::rename(path_.c_str(), target_.c_str()) != 0) abandon(errno);
         gone_ = true;
+    }
+
+    /// A second name of the file that will be replaced, until this ends. Some file systems have
+    /// none.
+    void keep_target() {
+        kept_ = path_;
+        kept_ += "-old";
+        if (::link(target_.c_str(), kept_.c_str()) != 0) kept_.clear();
+    }
+    /// Undoes a rename.
+    void put_back(bool was_there) noexcept {
+        if (!was_there) ::unlink(target_.c_str());
+        if (was_there && !kept_.empty() && ::rename(kept_.c_str(), target_.c_str()) == 0)
+            kept_.clear();
     }
 
     /// The name, too. Not all file systems can; the file is there all the same.
@@ -126,6 +143,7 @@ private:
 
     fs::path target_;
     fs::path path_;
+    fs::path kept_;  ///< a second name of the target; empty: none
     int descriptor_ = -1;
     bool gone_ = false;  ///< renamed or removed
 };
@@ -172,6 +190,42 @@ void write_file(const fs::path& path, std::string_view bytes, OutputSafety safet
     file.write(bytes, safety);
     file.rename_to_target();
     if (safety == OutputSafety::Flushed) file.flush_folder();
+}
+
+void write_files(std::span<const OutputBytes> files) {
+    struct Pending {
+        std::unique_ptr<TemporaryFile> file;
+        bool is_there = false;
+        bool is_flushed = false;
+    };
+    std::vector<Pending> pending;
+    for (const OutputBytes& f : files) {
+        struct stat status {};
+        const bool is_there = ::stat(f.path.c_str(), &status) == 0;
+        if (is_there && !S_ISREG(status.st_mode)) continue;
+        const bool is_flushed = is_there || f.safety == OutputSafety::Flushed;
+        pending.push_back(
+            {std::make_unique<TemporaryFile>(output_target(f.path)), is_there, is_flushed});
+        TemporaryFile& file = *pending.back().file;
+        if (is_there) file.set_mode(status.st_mode);
+        file.write(f.bytes, is_flushed ? OutputSafety::Flushed : OutputSafety::Renamed);
+    }
+    for (const OutputBytes& f : files) {
+        struct stat status {};
+        if (::stat(f.path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
+            write_directly(f.path, f.bytes);
+    }
+    for (std::size_t i = 0; i < pending.size(); ++i) {
+        try {
+            if (pending[i].is_there) pending[i].file->keep_target();
+            pending[i].file->rename_to_target();
+        } catch (...) {
+            while (i-- > 0) pending[i].file->put_back(pending[i].is_there);
+            throw;
+        }
+    }
+    for (const Pending& p : pending)
+        if (p.is_flushed) p.file->flush_folder();
 }
 
 }  // namespace trisect

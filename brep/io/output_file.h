@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,19 @@ enum class OutputSafety : std::uint8_t {
 
 void write_file(const std::filesystem::path& path, std::string_view bytes,
                 OutputSafety safety = OutputSafety::Renamed);
+
+/// Bytes of one of several files.
+struct OutputBytes {
+    std::filesystem::path path;
+    std::string bytes;
+    OutputSafety safety = OutputSafety::Renamed;
+};
+
+/// All of them or none: each is complete in its folder before the first one is renamed. Where a
+/// file cannot be renamed after others were, these are put back; for that files that are replaced
+/// have a second name meanwhile, as far as the file system can give one. What is not a regular file
+/// is written before the first one is renamed. \pre different targets
+void write_files(std::span<const OutputBytes> files);
 
 /// Writes to an open descriptor, such as 1 for the standard output, which stays open; `name` stands
 /// for it in messages. What was written before a failure cannot be taken back.
