@@ -84,22 +84,19 @@ public:
     // Upwards. What one pass does not give is evaluated alone. \pre may_be_cut()
     [[nodiscard]] std::vector<Solid> cut(EvaluateReport* report) {
         detail::EvaluateStats made;
-        auto forms = detail::evaluate_slabs(slabs_, operands_.settings(), made);
+        auto values = detail::evaluate_slabs(slabs_, operands_.settings(), made);
         operands_.count(made, report);
         std::vector<Solid> out;
         bool is_any_cut = false;
         for (std::size_t i = 0; i < slabs_.size(); ++i) {
-            const MeshSlab& slab = slabs_[i];
-            if (!forms[i]) {
-                out.push_back(detail::evaluate_translation({slab.formula, names_[i]}, options_,
-                                                           report, rules_after_half_spaces));
-                ++counters().evaluations;
+            if (auto solid = solid_of(i, std::move(values[i]))) {
+                out.push_back(*std::move(solid));
+                is_any_cut = true;
                 continue;
             }
-            is_any_cut = true;
-            forms[i]->tree = detail::lazy_tree_of(slab.formula, slab.solids, operands_.settings());
-            out.push_back(operands_.solid_of_value(detail::state_of_value(
-                *std::move(forms[i]), *slab.formula, slab.solids, operands_.settings())));
+            out.push_back(detail::evaluate_translation({slabs_[i].formula, names_[i]}, options_,
+                                                       report, rules_after_half_spaces));
+            ++counters().evaluations;
         }
         counters().results += out.size();
         counters().evaluations += is_any_cut ? 1 : 0;
@@ -107,6 +104,23 @@ public:
     }
 
 private:
+    [[nodiscard]] std::optional<Solid> solid_of(std::size_t i, detail::SlabValue value) const {
+        const MeshSlab& slab = slabs_[i];
+        const auto& settings = operands_.settings();
+        if (value.is_none)
+            return operands_.solid_of_value(
+                std::make_shared<detail::SolidState>(*detail::state_of(Solid())));
+        if (value.is_all) {
+            auto all = std::make_shared<detail::SolidState>(*slab.solids[0]);
+            all->source = 0;
+            return operands_.solid_of_value(std::move(all));
+        }
+        if (!value.part) return std::nullopt;
+        value.part->tree = detail::lazy_tree_of(slab.formula, slab.solids, settings);
+        return operands_.solid_of_value(
+            detail::state_of_value(*std::move(value.part), *slab.formula, slab.solids, settings));
+    }
+
     static detail::Translation translation_of(const Solid& mesh,
                                               std::span<const Solid> half_spaces) {
         detail::Translation out;

@@ -60,17 +60,17 @@ public:
     }
 
     /// \pre run()
-    [[nodiscard]] std::optional<UndividedMeshes> slab(std::size_t number, EvaluateStats& stats) {
+    [[nodiscard]] SlabValue slab(std::size_t number, EvaluateStats& stats) {
         const MeshSlab& slab = slabs_[number];
         auto crossings =
             *crossings_of(*slab.formula, slab.solids, CrossingOperands::WithHalfSpaces);
         std::size_t slot = 1;
         for (const std::size_t plane : {number, number - 1}) {
             if (plane >= planes_.size()) continue;
-            if (is_touched_[plane] != 0) return std::nullopt;
+            if (is_touched_[plane] != 0) return {};
             add_pairs(crossings, plane, slot++);
         }
-        if (crossings.pairs.empty()) return std::nullopt;
+        if (crossings.pairs.empty()) return uncut_slab(number);
         stats.pairs_touching += crossings.pairs.size();
         stats.pairs_cutting += crossings.pairs.size();
         crossings.arrange();
@@ -85,8 +85,10 @@ public:
         memory_.keep(lists[0].facets.size() * sizeof(std::uint32_t) +
                      crossings.pairs.size() * sizeof(FacetCrossing));
         stats.memory = memory_.peak();
-        return UndividedMeshes{std::move(lists),
-                               std::make_shared<const Crossings>(std::move(crossings)), nullptr};
+        SlabValue out;
+        out.part = UndividedMeshes{
+            std::move(lists), std::make_shared<const Crossings>(std::move(crossings)), nullptr};
+        return out;
     }
 
 private:
@@ -95,6 +97,16 @@ private:
         std::vector<std::vector<std::uint32_t>> uncrossed;  // by slab
         std::vector<std::vector<FacetCrossing>> pairs;      // by plane
     };
+
+    // Between planes that cut nothing.
+    [[nodiscard]] SlabValue uncut_slab(std::size_t number) const {
+        std::size_t facets = 0;
+        for (const Part& part : parts_) facets += part.uncrossed[number].size();
+        SlabValue out;
+        out.is_none = facets == 0;
+        out.is_all = facets == source_.mesh().triangles.size();
+        return out;
+    }
 
     // A corner on a plane counts as above it, and spoils the slabs beside it.
     [[nodiscard]] std::uint32_t planes_below(const LatticePoint& p,
@@ -189,12 +201,11 @@ Plane plane_of_half_space(const SolidState& state) {
     return state.root().node->polygons().whole_source()->support(0);
 }
 
-std::vector<std::optional<UndividedMeshes>> evaluate_slabs(std::span<const MeshSlab> slabs,
-                                                           const EvaluateSettings& options,
-                                                           EvaluateStats& stats) {
+std::vector<SlabValue> evaluate_slabs(std::span<const MeshSlab> slabs,
+                                      const EvaluateSettings& options, EvaluateStats& stats) {
     SlabCut cut(slabs, options);
     cut.run();
-    std::vector<std::optional<UndividedMeshes>> out;
+    std::vector<SlabValue> out;
     for (std::size_t i = 0; i < slabs.size(); ++i) out.push_back(cut.slab(i, stats));
     return out;
 }
