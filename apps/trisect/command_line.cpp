@@ -33,7 +33,7 @@ constexpr const char* what_it_is =
 constexpr const char* exit_code_help =
     "Exit codes: 0 done, yes, none found; 1 done, no, something found; 2 usage; 3 unreadable or\n"
     "malformed input; 4 not a valid solid; 5 a limit was hit; 6 cancelled; 7 unsupported;\n"
-    "70 internal error.\n"
+    "8 a program that it takes is not there; 70 internal error.\n"
     "Formats: obj, stl, off, ply, 3mf, glb, amf, step, dxf (in). '-': standard input or output.";
 
 MeshFormat format_named(const std::string& name) {

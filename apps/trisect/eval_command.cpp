@@ -1,39 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// eval MODEL.csg -o OUT: the set that a program in OpenSCAD's evaluated form describes.
-#include <trisect/brep/io/file_bytes.h>
+// eval MODEL -o OUT: the set that a program describes, in OpenSCAD's evaluated form or in JSON.
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/csg/csg_evaluate.h>
+#include <trisect/bsp/csg/csg_openscad_grid.h>
 #include <trisect/bsp/csg/csg_session.h>
 #include <trisect/kernel/error.h>
 
 #include <chrono>
-#include <filesystem>
 #include <optional>
 #include <span>
-#include <system_error>
 #include <thread>
-#include <vector>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "certificate.h"
+#include "choice.h"
 #include "commands.h"
 #include "eval_model.h"
+#include "eval_program.h"
+#include "eval_report.h"
 #include "mesh_files.h"
 #include "output_name.h"
 #include "values.h"
 
 namespace trisect::app {
 namespace {
-
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
-
-CsgTree read_program(const std::string& name) {
-    const FileBytes bytes = name == "-" ? read_descriptor(0, "standard input", most_bytes)
-                                        : read_file(name, most_bytes);
-    return parse_csg(bytes.view(), name == "-" ? "standard input" : name);
-}
 
 /// Of the mesh that is written.
 struct EvalCertificate {
@@ -88,44 +81,35 @@ void write_result(Session& session, const std::string& output, const Solid& soli
     }
 }
 
-// A file as it was when this was made.
-class WatchedFile {
-public:
-    explicit WatchedFile(const std::string& name) : name_(name), was_(state()) {}
-    [[nodiscard]] bool has_changed() const { return state() != was_; }
-
-private:
-    using State = std::pair<std::filesystem::file_time_type, std::uintmax_t>;
-    [[nodiscard]] State state() const {
-        std::error_code none;
-        return {std::filesystem::last_write_time(name_, none),
-                std::filesystem::file_size(name_, none)};
-    }
-    std::filesystem::path name_;
-    State was_;
-};
-
-std::string summary_of(const CsgReport& report, const Json& document) {
-    double total = 0;
-    for (const auto& seconds : document["seconds"]) total += seconds.get<double>();
-    return fmt::format(
-        "{:<13}{}\n{:<13}{}, {} different\n{:<13}{}\n{:<13}{}\n{:<13}{}\n{:<13}{:.3f} s", "nodes",
-        report.nodes, "shapes", report.leaves, report.meshes, "formulas", report.evaluations,
-        "triangles", document["triangles"].get<std::size_t>(), "volume",
-        number_text(document["volume"].get<double>()), "time", total);
-}
-
 }  // namespace
 
 void add_eval_command(CLI::App& app, EvalOptions& options) {
     CLI::App* command = app.add_subcommand(
-        "eval", "the solid of a program in OpenSCAD's evaluated form (.csg), exactly");
-    command->add_option("MODEL", options.input, ".csg file; '-' is the standard input")->required();
+        "eval", "the solid of a program in OpenSCAD's evaluated form (.csg) or in JSON, exactly");
+    command
+        ->add_option("MODEL", options.input,
+                     ".csg or .json file, or .scad file, which an installed OpenSCAD evaluates; "
+                     "'-' is the standard input")
+        ->required();
     command
         ->add_option("-o,--output", options.output,
-                     "mesh, exact boundary (.exact) or native file (.trisect); '-' is the standard "
-                     "output")
+                     "mesh, exact boundary (.exact) or native file (.trisect), or the program "
+                     "itself (.json); '-' is the standard output")
         ->required();
+    add_choice_option<ProgramForm>(*command, "--program", options.form,
+                                   {{"csg", ProgramForm::Csg},
+                                    {"json", ProgramForm::Json},
+                                    {"scad", ProgramForm::Scad}},
+                                   "how the program is written, whatever its name");
+    command->add_option("--openscad", options.openscad,
+                        "the OpenSCAD that evaluates .scad files (default: that of "
+                        "TRISECT_OPENSCAD, or openscad on PATH)");
+    command
+        ->add_option("-D,--define", options.definitions,
+                     "NAME=VALUE for OpenSCAD; may come again")
+        ->allow_extra_args(false);
+    command->add_flag("--openscad-grid", options.openscad_grid,
+                      "with the rounded numbers of OpenSCAD's CGAL: for comparison only");
     command->add_flag("--watch", options.watch,
                       "evaluate again whenever the program or a file that it reads changes, until "
                       "interrupted; only what changed is evaluated");
@@ -142,20 +126,6 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
 
 namespace {
 
-Json document_of(const EvalOptions& options, const CsgReport& report) {
-    Json out;
-    out["schema"] = "trisect.eval/1";
-    out["input"] = options.input;
-    out["output"] = options.output;
-    out["nodes"] = report.nodes;
-    out["shapes"] = report.leaves;
-    out["different_shapes"] = report.meshes;
-    out["formulas"] = report.evaluations;
-    out["flat"] = report.is_flat;
-    out["remarks"] = report.remarks;
-    return out;
-}
-
 /// What a user of the file must hear of.
 void say_certificate(Session& session, const EvalOptions& options, const EvalCertificate& made) {
     if (made.certificate && !made.certificate->holds())
@@ -169,10 +139,25 @@ void say_remarks(Session& session, const CsgReport& report) {
         session.note("the program describes a region of the plane: its prism of height 1");
 }
 
+CsgOptions how_to_evaluate(Session& session, const EvalOptions& options,
+                           const ProgramSource& source, bool keeps_colors) {
+    CsgOptions how;
+    how.evaluate = session.evaluation_options(OperandOptions());
+    how.folder = source.folder();
+    how.missing_files_are_empty = options.missing_files_are_empty || options.keep_going;
+    how.leaves_out_refused = options.keep_going;
+    how.keeps_colors = keeps_colors;
+    if (session.supervisor().draws())
+        how.on_progress = [&session](const CsgProgress& progress) {
+            session.supervisor().show_detail(progress_text(progress));
+        };
+    return how;
+}
+
 // One evaluation, from the text to the output. Without measures, which take longer than an edit.
-Outcome eval_again(Session& session, const EvalOptions& options, CsgSession& kept,
-                   ChangeReport& change) {
-    const CsgTree tree = session.stage("read", [&] { return read_program(options.input); });
+Outcome eval_again(Session& session, const EvalOptions& options, ProgramSource& source,
+                   CsgSession& kept, ChangeReport& change) {
+    const CsgTree tree = source.read();
     CsgReport report;
     const Solid solid = session.interruptible_stage(
         "evaluate", [&] { return kept.evaluate(tree, &report, &change); });
@@ -206,22 +191,17 @@ std::string said_of(const Session& session, const Json& before, const ChangeRepo
 
 // Evaluates whenever the program or a file that it reads has changed, until it is interrupted. What
 // is wrong with a program is said, and the output of the last one stays.
-Outcome watch(Session& session, const EvalOptions& options) {
-    CsgOptions how;
-    how.evaluate = session.evaluation_options(OperandOptions());
-    how.missing_files_are_empty = options.missing_files_are_empty || options.keep_going;
-    how.leaves_out_refused = options.keep_going;
-    how.keeps_colors =
+Outcome watch(Session& session, const EvalOptions& options, ProgramSource& source) {
+    const bool keeps_colors =
         is_mesh(options.output) && holds_colors(output_format(session, options.output));
-    CsgSession kept(how);
+    CsgSession kept(how_to_evaluate(session, options, source, keeps_colors));
     Outcome last;
     try {
         while (true) {
-            const WatchedFile program(options.input);
             const Json before = session.seconds();
             try {
                 ChangeReport change;
-                last = eval_again(session, options, kept, change);
+                last = eval_again(session, options, source, kept, change);
                 session.note(said_of(session, before, change));
             } catch (const CancelledError&) {
                 throw;
@@ -229,7 +209,7 @@ Outcome watch(Session& session, const EvalOptions& options) {
                 session.note(error.what());
             }
             session.interruptible_stage("wait", [&] {
-                while (!session.supervisor().stop_flag() && !program.has_changed() &&
+                while (!session.supervisor().stop_flag() && !source.has_changed() &&
                        !kept.have_files_changed())
                     std::this_thread::sleep_for(std::chrono::milliseconds(50));
                 return true;
@@ -242,27 +222,54 @@ Outcome watch(Session& session, const EvalOptions& options) {
 
 }  // namespace
 
-Outcome run_eval(Session& session, const EvalOptions& options) {
-    if (is_mesh(options.output)) (void)output_format(session, options.output);
-    check_outputs(session, {options.output});
-    session.plan(5);
-    if (options.watch) {
-        if (options.input == "-" || options.output == "-" || options.summary)
-            throw UsageError(
-                "--watch takes files, not the standard input or output, and no "
-                "--summary");
-        return watch(session, options);
-    }
-    const CsgTree tree = session.stage("read", [&] { return read_program(options.input); });
-    CsgReport report;
-    const Solid solid = session.interruptible_stage("evaluate", [&] {
-        CsgOptions how;
-        how.evaluate = session.evaluation_options(OperandOptions());
-        how.missing_files_are_empty = options.missing_files_are_empty || options.keep_going;
-        how.leaves_out_refused = options.keep_going;
-        how.keeps_colors = keeps_colors(session, options, tree);
-        return evaluate_csg(tree, how, &report);
+namespace {
+
+void check_options(const EvalOptions& options) {
+    const bool writes_program = has_program_name(options.output);
+    if (options.watch && (options.input == "-" || options.output == "-" || options.summary ||
+                          writes_program || options.openscad_grid))
+        throw UsageError(
+            "--watch takes files, not the standard input or output, writes solids, and takes no "
+            "--summary and no --openscad-grid");
+    if (writes_program && (options.summary || options.openscad_grid))
+        throw UsageError("a program is written as it is: no --summary and no --openscad-grid");
+}
+
+Outcome program_written(Session& session, const EvalOptions& options, const CsgTree& tree) {
+    session.stage("write", [&] { write_program(session, options, tree); });
+    Outcome out;
+    out.document = document_of(options, tree);
+    out.document["seconds"] = session.seconds();
+    return out;
+}
+
+Solid evaluated(Session& session, const EvalOptions& options, const ProgramSource& source,
+                const CsgTree& tree, CsgReport& report) {
+    const CsgOptions how =
+        how_to_evaluate(session, options, source, keeps_colors(session, options, tree));
+    if (options.openscad_grid)
+        session.note(
+            "the numbers are those of OpenSCAD's CGAL, rounded to its grid: for comparison only");
+    return session.interruptible_stage("evaluate", [&] {
+        return options.openscad_grid ? evaluate_on_openscad_grid(tree, how, &report)
+                                     : evaluate_csg(tree, how, &report);
     });
+}
+
+}  // namespace
+
+Outcome run_eval(Session& session, const EvalOptions& options) {
+    check_options(options);
+    ProgramSource source(session, options);
+    const bool writes_program = has_program_name(options.output);
+    if (!writes_program && is_mesh(options.output)) (void)output_format(session, options.output);
+    check_outputs(session, {options.output});
+    session.plan(source.stages() + (writes_program ? 1 : 4));
+    if (options.watch) return watch(session, options, source);
+    const CsgTree tree = source.read();
+    if (writes_program) return program_written(session, options, tree);
+    CsgReport report;
+    const Solid solid = evaluated(session, options, source, tree, report);
     say_remarks(session, report);
     Outcome out;
     out.document = document_of(options, report);
@@ -271,6 +278,8 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         ExactMesh boundary = solid.to_exact_mesh();
         out.document["triangles"] = boundary.triangles.size();
         out.document["volume"] = volume(boundary);
+        if (options.openscad_grid)
+            out.document["exact_volume"] = exact_volume(boundary).to_string();
         return boundary;
     });
     if (mesh.triangles.empty()) session.note("the solid is empty");
@@ -285,6 +294,7 @@ Outcome run_eval(Session& session, const EvalOptions& options) {
         write_result(session, options.output, solid, rounded, mesh.source, report);
     });
     out.document["seconds"] = session.seconds();
+    add_peak_memory(out.document);
     if (options.summary) out.remarks = summary_of(report, out.document);
     return out;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <new>
 
+#include "child_process.h"
 #include "mesh_files.h"
 #include "report_json.h"
 #include "way_out.h"
@@ -15,6 +16,7 @@ namespace trisect::app {
 namespace {
 
 std::string_view kind_name(int code) {
+    if (code == exit_missing_program) return "missing_program";
     switch (static_cast<ErrorCode>(code)) {
         case ErrorCode::Usage:
             return "usage";
@@ -81,6 +83,8 @@ Failure current_failure() {
         return {static_cast<int>(e.code()), e.what(), e.place(), {}};
     } catch (const Error& e) {
         return simple(e.code(), e.what());
+    } catch (const MissingProgram& e) {
+        return {exit_missing_program, e.what(), {}, {}};
     } catch (const std::bad_alloc&) {
         return simple(ErrorCode::Limit, "out of memory (see --max-memory)");
     } catch (const std::filesystem::filesystem_error& e) {

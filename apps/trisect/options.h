@@ -229,9 +229,16 @@ struct ConvertOptions {
     bool properties = false;
 };
 
+/// How a program is written.
+enum class ProgramForm : std::uint8_t { ByName, Csg, Json, Scad };
+
 struct EvalOptions {
     std::string input;
     std::string output;
+    ProgramForm form = ProgramForm::ByName;
+    std::string openscad;                  ///< the program; empty: the one that is found
+    std::vector<std::string> definitions;  ///< for OpenSCAD, NAME=VALUE
+    bool openscad_grid = false;            ///< its numbers, for comparison
     bool summary = false;
     bool watch = false;
     bool missing_files_are_empty = false;

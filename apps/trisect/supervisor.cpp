@@ -85,8 +85,24 @@ Supervisor::~Supervisor() {
 void Supervisor::enter_stage(const std::string& name, int index, int count) {
     const std::lock_guard lock(mutex_);
     stage_ = name;
+    detail_.clear();
     stage_index_ = index;
     stage_count_ = count;
+}
+
+void Supervisor::show_detail(std::string detail) {
+    const std::lock_guard lock(mutex_);
+    detail_ = std::move(detail);
+}
+
+void Supervisor::push_end_action(std::function<void()> action) {
+    const std::lock_guard lock(mutex_);
+    end_actions_.push_back(std::move(action));
+}
+
+void Supervisor::pop_end_action() {
+    const std::lock_guard lock(mutex_);
+    if (!end_actions_.empty()) end_actions_.pop_back();  // they may have been done
 }
 
 void Supervisor::watch_output(const std::filesystem::path& target) {
@@ -139,7 +155,8 @@ void Supervisor::draw() {
     const std::string_view on = wants_color() ? "\033[36m" : "";
     const std::string_view off = wants_color() ? "\033[0m" : "";
     console_.show_progress(
-        fmt::format("[{}{}{}] {:.1f} s  {}", on, bar, off, elapsed.count(), stage_));
+        fmt::format("[{}{}{}] {:.1f} s  {}{}{}", on, bar, off, elapsed.count(), stage_,
+                    detail_.empty() ? "" : ": ", detail_));
 }
 
 std::optional<Failure> Supervisor::reason_to_stop() {
@@ -170,6 +187,10 @@ void Supervisor::end_process(const Reason& given) {
 
 void Supervisor::remove_temporary_output() {
     const std::lock_guard lock(mutex_);
+    while (!end_actions_.empty()) {
+        end_actions_.back()();
+        end_actions_.pop_back();
+    }
     if (folder_.empty()) return;
     // The names that write_file gives to files that are not complete.
     const std::string prefix = fmt::format(".trisect-{}-", ::getpid());

@@ -15,10 +15,12 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "console.h"
 #include "failure.h"
@@ -40,8 +42,17 @@ public:
 
     /// What is being done, for the progress line: step `index` of `count`.
     void enter_stage(const std::string& name, int index, int count);
+    /// What of the stage is being done, for the same line; the next stage takes it away.
+    void show_detail(std::string detail);
+    /// Whether anybody sees it.
+    [[nodiscard]] bool draws() const { return draws_; }
     /// Where temporary output may appear.
     void watch_output(const std::filesystem::path& target);
+
+    /// What is to be done in addition when this ends the process itself, by this thread; the last
+    /// one first. Use EndGuard.
+    void push_end_action(std::function<void()> action);
+    void pop_end_action();
 
     /// Does work that looks at stop_flag() from time to time. \throw CancelledError when the flag
     /// is set at the end of it.
@@ -88,12 +99,28 @@ private:
 
     std::mutex mutex_;  // guards what follows
     std::string stage_;
+    std::string detail_;
+    std::vector<std::function<void()>> end_actions_;
     int stage_index_ = 0;
     int stage_count_ = 1;
     std::filesystem::path folder_;
     std::optional<Reason> reason_;
 
     std::thread thread_;
+};
+
+/// What is to be done should the process be ended while this lives.
+class EndGuard {
+public:
+    EndGuard(Supervisor& supervisor, std::function<void()> action) : supervisor_(supervisor) {
+        supervisor_.push_end_action(std::move(action));
+    }
+    EndGuard(const EndGuard&) = delete;
+    EndGuard& operator=(const EndGuard&) = delete;
+    ~EndGuard() { supervisor_.pop_end_action(); }
+
+private:
+    Supervisor& supervisor_;
 };
 
 }  // namespace trisect::app

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,13 @@ namespace trisect {
 /// Red, green, blue and opacity, 0 to 1.
 using CsgColor = std::array<double, 4>;
 
+/// Of an evaluation that goes on.
+struct CsgProgress {
+    const CsgNode* node = nullptr;  ///< being evaluated; null: the formula of the whole program
+    std::size_t done = 0;           ///< nodes, with those that are a part of the formula
+    std::size_t count = 0;          ///< nodes that count
+};
+
 struct CsgOptions {
     EvaluateOptions evaluate = {};
     /// Where relative names of import() and surface() start; nothing: that of CsgTree::file.
@@ -34,6 +42,15 @@ struct CsgOptions {
     bool leaves_out_refused = false;
     /// Whether the report has colours of faces; shapes of two colours are two operands then.
     bool keeps_colors = false;
+    /// Called by the evaluating thread when it comes to a node, and when it comes back to it.
+    std::function<void(const CsgProgress&)> on_progress = nullptr;
+};
+
+/// Nodes of one name.
+struct CsgNodeCount {
+    std::size_t nodes = 0;        ///< that count
+    std::size_t found_again = 0;  ///< of them, those whose set was made before for equal content
+    friend bool operator==(const CsgNodeCount&, const CsgNodeCount&) = default;
 };
 
 struct CsgReport {
@@ -41,7 +58,9 @@ struct CsgReport {
     std::size_t leaves = 0;       ///< shapes that were used
     std::size_t meshes = 0;       ///< of them, different ones: equal shapes are made once
     std::size_t evaluations = 0;  ///< formulas; one, but for turned groups, hulls and extrusions
-    bool is_flat = false;         ///< the program describes a region of the plane
+    std::size_t found_again = 0;  ///< subtrees whose set was made before, by their content
+    std::map<std::string, CsgNodeCount> by_name;
+    bool is_flat = false;  ///< the program describes a region of the plane
     /// Colours of faces by FaceSource::operand, as numbers of `colors`, where they are kept. As in
     /// OpenSCAD an outer color() counts for all that is in it. What was made of children as a
     /// whole (a hull, an extrusion) has the colour that it stands in.

@@ -58,17 +58,24 @@ std::vector<Outline> outlines_of(const CsgNode& node, const CsgArguments& argume
 }  // namespace
 
 Expression CsgEvaluator::formula() {
+    for (const std::uint32_t n : program_.used_nodes()) ++report_.by_name[program_.node(n).name].nodes;
     CsgFrame frame;
     if (options_.keeps_colors) frame.color = CsgFrame::no_color;
-    return any_of(program_.roots(), program_.dimension(), frame);
+    Expression out = any_of(program_.roots(), program_.dimension(), frame);
+    progress_.begin_formula();
+    return out;
 }
 
-// What is made of children, as a whole, for the next program.
+Solid CsgEvaluator::run() { return solid_of(formula()); }
+
+// What is made of children, as a whole, once for equal content; also for the next program.
 template <class Make>
 Expression CsgEvaluator::kept_formula(std::uint32_t n, const CsgFrame& frame, const Make& make) {
-    if (!kept_.is_across_programs()) return make();
     const std::string key = csg_key(program_, n, frame);
-    if (const Expression* known = kept_.formula(key)) return *known;
+    if (const Expression* known = kept_.formula(key)) {
+        note_found(n);
+        return *known;
+    }
     return kept_.keep_formula(key, make());
 }
 
@@ -78,6 +85,11 @@ void CsgEvaluator::remark(std::uint32_t n, const std::string& text) {
 
 void CsgEvaluator::remark(std::string text) {
     if (report_.remarks.size() < most_remarks) report_.remarks.push_back(std::move(text));
+}
+
+void CsgEvaluator::note_found(std::uint32_t n) {
+    ++report_.found_again;
+    ++report_.by_name[program_.node(n).name].found_again;
 }
 
 Solid CsgEvaluator::solid_of(const Expression& formula) {
@@ -121,6 +133,11 @@ Expression CsgEvaluator::children_of(std::uint32_t n, const CsgFrame& frame) {
 }
 
 Expression CsgEvaluator::expression_of(std::uint32_t n, const CsgFrame& frame) {
+    const CsgNodeProgress::Scope scope(progress_, n);
+    return expression_of_kind(n, frame);
+}
+
+Expression CsgEvaluator::expression_of_kind(std::uint32_t n, const CsgFrame& frame) {
     switch (program_.kind(n)) {
         case CsgKind::Group:
             return group(n, frame);
@@ -215,8 +232,11 @@ bool CsgEvaluator::is_single(std::uint32_t n) const {
 Solid CsgEvaluator::turned_group(std::uint32_t n, const CsgFrame& frame) {
     const CsgFrame straight{AffineMap(), frame.low, frame.high, frame.color};
     const std::string key = csg_key(program_, n, straight, true);
-    const Solid* known = kept_.solid(key);
-    return known != nullptr ? *known : kept_.keep(key, solid_of(children_of(n, straight)));
+    if (const Solid* known = kept_.solid(key)) {
+        note_found(n);
+        return *known;
+    }
+    return kept_.keep(key, solid_of(children_of(n, straight)));
 }
 
 Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const CsgFrame& frame) {
@@ -286,7 +306,10 @@ PolygonMesh CsgEvaluator::file_of(std::uint32_t n) {
 Expression CsgEvaluator::shape(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame);
-    if (const Solid* known = kept_.solid(key)) return *known;
+    if (const Solid* known = kept_.solid(key)) {
+        note_found(n);
+        return *known;
+    }
     ++report_.meshes;
     return kept_.keep(key, placed(n, mesh_of(n), frame));
 }
@@ -320,7 +343,10 @@ Expression CsgEvaluator::prism_of_drawing(std::uint32_t n, Drawing drawing, cons
 Expression CsgEvaluator::region(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame);
-    if (const Expression* known = kept_.formula(key)) return *known;
+    if (const Expression* known = kept_.formula(key)) {
+        note_found(n);
+        return *known;
+    }
     return kept_.keep_formula(key, prism_of_drawing(n, drawing_of(n), frame));
 }
 
@@ -333,7 +359,10 @@ bool CsgEvaluator::names_drawing(std::uint32_t n) const {
 Expression CsgEvaluator::named_drawing(std::uint32_t n, const CsgFrame& frame) {
     ++report_.leaves;
     const std::string key = csg_key(program_, n, frame) + "drawing";
-    if (const Expression* known = kept_.formula(key)) return *known;
+    if (const Expression* known = kept_.formula(key)) {
+        note_found(n);
+        return *known;
+    }
     return kept_.keep_formula(key, prism_of_drawing(n, drawing_file(n), frame));
 }
 

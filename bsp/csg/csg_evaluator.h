@@ -18,6 +18,7 @@
 #include <trisect/bsp/csg/csg_extrude.h>
 #include <trisect/bsp/csg/csg_frame.h>
 #include <trisect/bsp/csg/csg_kept.h>
+#include <trisect/bsp/csg/csg_node_progress.h>
 #include <trisect/bsp/csg/csg_program.h>
 #include <trisect/bsp/csg/drawing/drawing.h>
 
@@ -28,14 +29,19 @@ class CsgEvaluator {
 public:
     CsgEvaluator(const CsgProgram& program, const CsgOptions& options, CsgReport& report,
                  CsgKept& kept)
-        : program_(program), options_(options), report_(report), kept_(kept) {}
+        : program_(program),
+          options_(options),
+          report_(report),
+          kept_(kept),
+          progress_(program, options) {}
 
     [[nodiscard]] Expression formula();
-    [[nodiscard]] Solid run() { return solid_of(formula()); }
+    [[nodiscard]] Solid run();
 
 private:
     void remark(std::uint32_t n, const std::string& text);
     void remark(std::string text);
+    void note_found(std::uint32_t n);
     [[nodiscard]] Solid solid_of(const Expression& formula);
 
     // Formulas of nodes.
@@ -47,6 +53,7 @@ private:
     [[nodiscard]] Solid tinted(const Solid& solid, const CsgFrame& frame);
     [[nodiscard]] Expression children_of(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression expression_of(std::uint32_t n, const CsgFrame& frame);
+    [[nodiscard]] Expression expression_of_kind(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression expression_or_empty(std::uint32_t n, const CsgFrame& frame);
     template <class Make>
     [[nodiscard]] Expression kept_formula(std::uint32_t n, const CsgFrame& frame, const Make& make);
@@ -119,6 +126,7 @@ private:
         PolygonMesh mesh;
     };
     SurfaceMesh last_surface_;
+    CsgNodeProgress progress_;
 };
 
 }  // namespace trisect::detail

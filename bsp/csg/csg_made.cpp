@@ -92,6 +92,7 @@ Expression CsgEvaluator::made(std::uint32_t n, const CsgFrame& frame) {
         return tinted(solid_of(made(n, plain)), frame);
     }
     const Solid* known = kept_.solid(key);
+    if (known != nullptr) note_found(n);
     const Solid solid =
         known != nullptr ? *known : kept_.keep(key, at_node(n, [&] { return made_at_origin(n); }));
     if (solid.is_empty() || is_at_origin(frame)) return solid;

@@ -21,6 +21,9 @@ public:
     explicit CsgProgram(const CsgTree& tree);
 
     [[nodiscard]] const CsgNode& node(std::uint32_t n) const { return tree_.nodes[n]; }
+    [[nodiscard]] std::size_t node_count() const { return tree_.nodes.size(); }
+    /// Nodes that count, parents first.
+    [[nodiscard]] std::vector<std::uint32_t> used_nodes() const { return used_below(roots_); }
     [[nodiscard]] CsgKind kind(std::uint32_t n) const { return csg_kind(node(n).name); }
     [[nodiscard]] CsgArguments arguments(std::uint32_t n) const { return {tree_, node(n)}; }
     /// FILE:LINE:COLUMN: NAME
