@@ -3,7 +3,7 @@
 // eval MODEL -o OUT: the set that a program describes, in OpenSCAD's evaluated form or in JSON.
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/csg/csg_evaluate.h>
-#include <trisect/bsp/csg/csg_openscad_grid.h>
+#include <trisect/bsp/csg/grid/csg_openscad_grid.h>
 #include <trisect/bsp/csg/csg_session.h>
 #include <trisect/kernel/error.h>
 
@@ -97,16 +97,15 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
                      "itself (.json); '-' is the standard output")
         ->required();
     add_choice_option<ProgramForm>(*command, "--program", options.form,
-                                   {{"csg", ProgramForm::Csg},
-                                    {"json", ProgramForm::Json},
+                                   {{"csg", ProgramForm::CsgText},
+                                    {"json", ProgramForm::JsonText},
                                     {"scad", ProgramForm::Scad}},
                                    "how the program is written, whatever its name");
     command->add_option("--openscad", options.openscad,
                         "the OpenSCAD that evaluates .scad files (default: that of "
                         "TRISECT_OPENSCAD, or openscad on PATH)");
     command
-        ->add_option("-D,--define", options.definitions,
-                     "NAME=VALUE for OpenSCAD; may come again")
+        ->add_option("-D,--define", options.definitions, "NAME=VALUE for OpenSCAD; may come again")
         ->allow_extra_args(false);
     command->add_flag("--openscad-grid", options.openscad_grid,
                       "with the rounded numbers of OpenSCAD's CGAL: for comparison only");

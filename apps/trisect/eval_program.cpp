@@ -2,7 +2,7 @@
 #include "eval_program.h"
 
 #include <trisect/brep/io/file_bytes.h>
-#include <trisect/bsp/csg/csg_json.h>
+#include <trisect/bsp/csg/json/csg_json.h>
 #include <trisect/kernel/error.h>
 
 #include <algorithm>
@@ -20,16 +20,16 @@ constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
 
 std::string extension_of(const std::string& name) {
     std::string out = fs::path(name).extension().string();
-    std::ranges::transform(
-        out, out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(out, out.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return out;
 }
 
 ProgramForm form_of(const EvalOptions& options) {
     if (options.form != ProgramForm::ByName) return options.form;
     const std::string extension = extension_of(options.input);
-    if (extension == ".json") return ProgramForm::Json;
-    return extension == ".scad" ? ProgramForm::Scad : ProgramForm::Csg;
+    if (extension == ".json") return ProgramForm::JsonText;
+    return extension == ".scad" ? ProgramForm::Scad : ProgramForm::CsgText;
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ CsgTree ProgramSource::read() {
         const FileBytes bytes = is_stream ? read_descriptor(0, "standard input", most_bytes)
                                           : read_file(options_.input, most_bytes);
         const std::string name = is_stream ? "standard input" : options_.input;
-        return form_ == ProgramForm::Json ? parse_csg_json(bytes.view(), name)
-                                          : parse_csg(bytes.view(), name);
+        return form_ == ProgramForm::JsonText ? parse_csg_json(bytes.view(), name)
+                                              : parse_csg(bytes.view(), name);
     });
 }
 

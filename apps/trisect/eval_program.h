@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Programs of `eval`: files in the evaluated form, in JSON, or in OpenSCAD's language.
+// Programs of `eval`, and their files.
+// They are in the evaluated form, in JSON, or in OpenSCAD's language.
 #pragma once
 
 #include <chrono>

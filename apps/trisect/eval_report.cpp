@@ -60,15 +60,16 @@ std::string summary_of(const CsgReport& report, const Json& document) {
         if (count.found_again > 0) out += fmt::format("  found again {}", count.found_again);
         out += '\n';
     }
-    const double megabytes = static_cast<double>(document["peak_memory"].get<std::uint64_t>()) / 1e6;
-    return out +
-           fmt::format("{:<13}{}, {} different\n{:<13}{}\n{:<13}{}\n{:<13}{}\n{:<13}{}\n{:<13}{:.1f} "
-                       "MB at most\n{:<13}{:.3f} s",
-                       "shapes", report.leaves, report.meshes, "formulas", report.evaluations,
-                       "found again", report.found_again, "triangles",
-                       document["triangles"].get<std::size_t>(), "volume",
-                       number_text(document["volume"].get<double>()), "memory", megabytes, "time",
-                       total);
+    const double megabytes =
+        static_cast<double>(document["peak_memory"].get<std::uint64_t>()) / 1e6;
+    return out + fmt::format(
+                     "{:<13}{}, {} different\n{:<13}{}\n{:<13}{}\n{:<13}{}\n{:<13}{}\n{:<13}{:.1f} "
+                     "MB at most\n{:<13}{:.3f} s",
+                     "shapes", report.leaves, report.meshes, "formulas", report.evaluations,
+                     "found again", report.found_again, "triangles",
+                     document["triangles"].get<std::size_t>(), "volume",
+                     number_text(document["volume"].get<double>()), "memory", megabytes, "time",
+                     total);
 }
 
 std::string progress_text(const CsgProgress& progress) {

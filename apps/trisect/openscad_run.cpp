@@ -140,7 +140,8 @@ OpenScadForm run_openscad(Session& session, const OpenScadRequest& request) {
     }
     OpenScadForm out;
     out.text = read_file(form, most_bytes).view();
-    if (fs::exists(rule, none)) out.files = files_of_rule(std::string(read_file(rule, most_bytes).view()));
+    if (fs::exists(rule, none))
+        out.files = files_of_rule(std::string(read_file(rule, most_bytes).view()));
     return out;
 }
 

@@ -230,7 +230,7 @@ struct ConvertOptions {
 };
 
 /// How a program is written.
-enum class ProgramForm : std::uint8_t { ByName, Csg, Json, Scad };
+enum class ProgramForm : std::uint8_t { ByName, CsgText, JsonText, Scad };
 
 struct EvalOptions {
     std::string input;

@@ -154,9 +154,8 @@ void Supervisor::draw() {
     const std::chrono::duration<double> elapsed = Clock::now() - start_;
     const std::string_view on = wants_color() ? "\033[36m" : "";
     const std::string_view off = wants_color() ? "\033[0m" : "";
-    console_.show_progress(
-        fmt::format("[{}{}{}] {:.1f} s  {}{}{}", on, bar, off, elapsed.count(), stage_,
-                    detail_.empty() ? "" : ": ", detail_));
+    console_.show_progress(fmt::format("[{}{}{}] {:.1f} s  {}{}{}", on, bar, off, elapsed.count(),
+                                       stage_, detail_.empty() ? "" : ": ", detail_));
 }
 
 std::optional<Failure> Supervisor::reason_to_stop() {

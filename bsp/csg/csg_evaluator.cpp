@@ -58,7 +58,8 @@ std::vector<Outline> outlines_of(const CsgNode& node, const CsgArguments& argume
 }  // namespace
 
 Expression CsgEvaluator::formula() {
-    for (const std::uint32_t n : program_.used_nodes()) ++report_.by_name[program_.node(n).name].nodes;
+    for (const std::uint32_t n : program_.used_nodes())
+        ++report_.by_name[program_.node(n).name].nodes;
     CsgFrame frame;
     if (options_.keeps_colors) frame.color = CsgFrame::no_color;
     Expression out = any_of(program_.roots(), program_.dimension(), frame);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// CsgNodeProgress: which node is being evaluated, and how many are done.
+// CsgNodeProgress: the node that is evaluated, and how many are done.
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 
 #include <trisect/bsp/csg/csg_evaluate.h>
+#include <trisect/bsp/csg/json/csg_json.h>
 #include <trisect/bsp/modelling/hull_of_solids.h>
 #include <trisect/bsp/modelling/minkowski.h>
 #include <trisect/bsp/modelling/offset.h>
@@ -165,23 +166,30 @@ miter_limit : float
 void bind_programs(py::class_<Solid>& c) {
     c.def_static(
         "from_csg",
-        [](const std::string& text, const std::optional<std::string>& folder) {
+        [](const std::string& text, const std::optional<std::string>& folder,
+           const std::string& format) {
+            if (format != "csg" && format != "json")
+                throw UsageError("format: '" + format + "' is none of csg, json");
             return run_on_threads([&](std::uint32_t threads) {
                 CsgOptions options;
                 options.evaluate.threads = threads;
                 options.reads_files = folder.has_value();
                 if (folder) options.folder = *folder;
-                return evaluate_csg(parse_csg(text, "text"), options);
+                return evaluate_csg(
+                    format == "json" ? parse_csg_json(text, "text") : parse_csg(text, "text"),
+                    options);
             });
         },
         py::arg("text"), py::kw_only(), py::arg("folder") = py::none(),
-        R"(The solid of a program in OpenSCAD's evaluated form.
+        py::arg("format") = "csg",
+        R"(The solid of a program in OpenSCAD's evaluated form, or in JSON.
 
 Parameters
 ----------
 text : str
 folder : str or None
     Where names of files that the program reads start; without it such programs are refused.
+format : {'csg', 'json'}
 )");
 }
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Booleans, measures, transforms, parts and copies of solids."""
 import copy
+import json
 import pickle
 from fractions import Fraction
 
@@ -187,6 +188,12 @@ def test_programs_of_openscad(tmp_path):
     assert Solid.from_csg(program, folder=str(tmp_path)).volume == 1
     with pytest.raises(trisect.UnsupportedError):
         Solid.from_csg(program)
+    nodes = [{"node": "cube", "arguments": {"size": [1, 2, 3]}}]
+    assert Solid.from_csg(json.dumps({"nodes": nodes}), format="json").volume == 6
+    with pytest.raises(trisect.InputError):
+        Solid.from_csg("cube();", format="json")
+    with pytest.raises(ValueError):
+        Solid.from_csg("cube();", format="scad")
 
 
 def test_embedding_of_a_mesh_that_meets_itself():

@@ -4,9 +4,13 @@
 #include <trisect/brep/io/read_model.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <map>
 #include <string>
+#include <thread>
 
 #include "process.h"
 #include "scratch.h"
@@ -154,6 +158,179 @@ TEST_F(EvalCommand, ErrorsHavePlaces) {
     EXPECT_NE(run.err.find("roof"), std::string::npos);
     EXPECT_EQ(trisect({"eval", write("c.csg", "cube("), "-o", path("x.stl")}).code, 3);
     EXPECT_FALSE(exists("x.stl"));
+}
+
+TEST_F(EvalCommand, ProgramsAsJson) {
+    const Finished written = trisect({"eval", model_, "-o", path("p.json"), "--json"});
+    EXPECT_EQ(written.code, 0) << written.err;
+    EXPECT_EQ(written.json()["nodes"], 3);
+    const std::string program = read(path("p.json"));
+    EXPECT_EQ(json::parse(program)["nodes"][0]["node"], "difference");
+    EXPECT_EQ(trisect({"eval", path("p.json"), "-o", path("p.off"), "--json"}).json()["volume"],
+              56);
+    const Finished stream =
+        trisect({"eval", "-", "--program", "json", "-o", path("p.off"), "--json"}, {program, {}});
+    EXPECT_EQ(stream.json()["volume"], 56);
+    // Files start where they did, wherever the program is written.
+    ASSERT_EQ(trisect({"eval", model_, "-o", path("a.off")}).code, 0);
+    const std::string importing = write("i.csg", "import(file = \"a.off\");");
+    std::filesystem::create_directory(path("below"));
+    ASSERT_EQ(trisect({"eval", importing, "-o", path("below/i.json")}).code, 0);
+    EXPECT_EQ(
+        trisect({"eval", path("below/i.json"), "-o", path("p.off"), "--json"}).json()["volume"],
+        56);
+    // Errors at evaluation have the place in the first text.
+    ASSERT_EQ(trisect({"eval",
+                       write("o.csg",
+                             "\n polyhedron([[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"
+                             "[[0,1,2]]);"),
+                       "-o", path("o.json")})
+                  .code,
+              0);
+    const json error =
+        trisect({"eval", path("o.json"), "-o", path("x.stl"), "--json"}).json()["error"];
+    EXPECT_EQ(error["code"], 4);
+    EXPECT_EQ(error["line"], 2);
+    EXPECT_NE(error["file"].get<std::string>().find("o.csg"), std::string::npos);
+    const Finished unknown =
+        trisect({"eval", write("u.json", "{\"nodes\": [\n{\"node\": \"cube\", \"sides\": 4}]}"),
+                 "-o", path("x.stl"), "--json"});
+    EXPECT_EQ(unknown.code, 7);
+    EXPECT_EQ(unknown.json()["error"]["line"], 2);
+    EXPECT_NE(unknown.err.find("'sides'"), std::string::npos);
+    EXPECT_EQ(trisect({"eval", model_, "-o", path("p.json"), "--summary"}).code, 2);
+}
+
+TEST_F(EvalCommand, SummaryCountsNodesByName) {
+    const std::string file =
+        write("s.csg", "cube(size = 1); cube(size = 1); hull() { cube(size = 2); }");
+    const Finished run = trisect({"eval", file, "-o", path("s.off"), "--summary", "--json"});
+    const json document = run.json();
+    EXPECT_EQ(document["by_name"]["cube"]["nodes"], 3);
+    EXPECT_EQ(document["by_name"]["cube"]["found_again"], 1);
+    EXPECT_EQ(document["by_name"]["hull"]["nodes"], 1);
+    EXPECT_EQ(document["found_again"], 1);
+    EXPECT_GT(document["peak_memory"], 1e6);
+    EXPECT_NE(run.err.find("cube"), std::string::npos);
+    EXPECT_NE(run.err.find("MB at most"), std::string::npos);
+}
+
+TEST_F(EvalCommand, NumbersOfOpenScadAreSaidToBe) {
+    const std::string file = write("g.csg", "cube(size = [0.1, 1, 1]);");
+    const Finished run = trisect({"eval", file, "-o", path("g.off"), "--json", "--openscad-grid"});
+    EXPECT_EQ(run.json()["exact_volume"], "104857/1048576");
+    EXPECT_EQ(run.json()["openscad_grid"], true);
+    EXPECT_NE(run.err.find("for comparison only"), std::string::npos);
+    EXPECT_EQ(trisect({"eval", file, "-o", path("g.off"), "--json"}).json()["openscad_grid"],
+              false);
+    const std::string hull = write("h.csg", "hull() { cube(size = 1); }");
+    EXPECT_EQ(trisect({"eval", hull, "-o", path("g.off"), "--openscad-grid"}).code, 7);
+    EXPECT_EQ(trisect({"eval", file, "-o", path("g.off"), "--openscad-grid", "--watch"}).code, 2);
+    EXPECT_EQ(trisect({"eval", file, "-o", path("g.json"), "--openscad-grid"}).code, 2);
+}
+
+// A program in the place of OpenSCAD. It has the name of its folder for temporary files.
+class EvalScad : public EvalCommand {
+protected:
+    [[nodiscard]] std::string stand_in(const std::string& name, const std::string& body) const {
+        const std::string file =
+            write(name,
+                  "#!/bin/sh\nfor a in \"$@\"; do case \"$last\" in -o) out=$a;; -d) rule=$a;; -D) "
+                  "defined=\"$defined$a;\";; esac; last=$a; done\nmodel=$last\n"
+                  "dirname \"$out\" > '" +
+                      path("where") + "'\n" + body);
+        std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+        return file;
+    }
+    /// Whether the folder is gone in which the stand-in wrote.
+    [[nodiscard]] bool is_tidy() const {
+        std::string where = read(path("where"));
+        where.resize(where.find('\n'));
+        return !where.empty() && !std::filesystem::exists(where);
+    }
+    std::string scad_ = write("p.scad", "cube(w);\n");
+};
+
+TEST_F(EvalScad, IsEvaluatedByOpenScad) {
+    ASSERT_EQ(trisect({"eval", model_, "-o", path("a.off")}).code, 0);
+    const std::string program = stand_in(
+        "openscad",
+        "echo \"ECHO: $defined\"; echo WARNING: odd >&2; echo \"$model\" > \"$rule\"\n"
+        "echo 'import(file = \"a.off\"); multmatrix([[1,0,0,9],[0,1,0,0],[0,0,1,0],[0,0,0,1]]) "
+        "cube(size = 2);' > \"$out\"\n");
+    const Finished run = trisect({"eval", "-D", "w=3", "-D", "v=[1, \"a b\"]", scad_, "-o",
+                                  path("p.off"), "--openscad", program, "--json"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.json()["volume"], 64);
+    EXPECT_NE(run.err.find("openscad: ECHO: w=3;v=[1, \"a b\"];\n"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("openscad: WARNING: odd"), std::string::npos);
+    EXPECT_TRUE(is_tidy());
+    // By the environment as well, and into JSON.
+    const Finished variable =
+        trisect({"eval", scad_, "-o", path("p.json")}, {{}, {{"TRISECT_OPENSCAD", program}}});
+    EXPECT_EQ(variable.code, 0) << variable.err;
+    EXPECT_EQ(trisect({"eval", path("p.json"), "-o", path("p.off"), "--json"}).json()["volume"],
+              64);
+}
+
+TEST_F(EvalScad, WhatIsWrongIsSaid) {
+    const Finished missing =
+        trisect({"eval", scad_, "-o", path("p.off"), "--json"}, {{}, {{"PATH", "/nowhere"}}});
+    EXPECT_EQ(missing.code, 8);
+    EXPECT_EQ(missing.json()["error"]["kind"], "missing_program");
+    EXPECT_NE(missing.err.find("--openscad"), std::string::npos);
+    const std::string failing =
+        stand_in("failing", "echo 'ERROR: Parser error in line 3' >&2; exit 1\n");
+    const Finished failed = trisect({"eval", scad_, "-o", path("p.off"), "--openscad", failing});
+    EXPECT_EQ(failed.code, 3);
+    EXPECT_NE(failed.err.find("ended with code 1: ERROR: Parser error in line 3"),
+              std::string::npos)
+        << failed.err;
+    EXPECT_TRUE(is_tidy());
+    const std::string silent = stand_in("silent", "exit 0\n");
+    EXPECT_EQ(trisect({"eval", scad_, "-o", path("p.off"), "--openscad", silent}).code, 3);
+    const std::string odd = stand_in("odd", "echo '\n roof();' > \"$out\"\n");
+    const Finished refused =
+        trisect({"eval", scad_, "-o", path("p.off"), "--openscad", odd, "--json"});
+    EXPECT_EQ(refused.code, 7);
+    EXPECT_EQ(refused.json()["error"]["line"], 2);
+    EXPECT_FALSE(exists("p.off"));
+    EXPECT_EQ(trisect({"eval", scad_, "-o", path("p.off"), "-D", "3"}).code, 2);
+    EXPECT_EQ(trisect({"eval", model_, "-o", path("p.off"), "-D", "w=3"}).code, 2);
+    EXPECT_EQ(trisect({"eval", "-", "--program", "scad", "-o", path("p.off")}).code, 2);
+    // A file that is there and no program.
+    EXPECT_EQ(trisect({"eval", scad_, "-o", path("p.off"), "--openscad", scad_}).code, 3);
+}
+
+TEST_F(EvalScad, ACancelEndsOpenScadAsWell) {
+    const std::string slow = stand_in(
+        "slow", "echo $$ > '" + path("pid") + "'; sleep 600; touch '" + path("late") + "'\n");
+    trisect::test::Waiting run({"eval", scad_, "-o", path("p.off"), "--openscad", slow});
+    for (int i = 0; i < 600 && (!exists("pid") || read(path("pid")).empty()); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const int process = std::stoi(read(path("pid")));
+    run.send_signal(SIGINT);
+    EXPECT_EQ(run.finish().code, 6);
+    EXPECT_NE(::kill(process, 0), 0);
+    EXPECT_TRUE(is_tidy());
+    EXPECT_FALSE(exists("p.off"));
+    EXPECT_EQ(
+        trisect({"eval", scad_, "-o", path("p.off"), "--openscad", slow, "--max-seconds", "0.5"})
+            .code,
+        5);
+    EXPECT_TRUE(is_tidy());
+}
+
+// Sums of many pieces take longer than this waits.
+TEST_F(EvalCommand, ACancelWithinOneNodeLeavesNoOutput) {
+    const std::string slow =
+        write("slow.csg",
+              "minkowski() { difference() { sphere(r = 9, $fn = 90); sphere(r = 8, $fn = 90); }\n"
+              "difference() { sphere(r = 3, $fn = 40); sphere(r = 2, $fn = 40); } }");
+    const Finished run =
+        trisect({"eval", slow, "-o", path("s.off"), "--max-seconds", "1", "--json"});
+    EXPECT_EQ(run.code, 5) << run.err;
+    EXPECT_FALSE(exists("s.off"));
 }
 
 }  // namespace

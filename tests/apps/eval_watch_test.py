@@ -3,7 +3,8 @@
 """eval_watch_test.py COMMAND
 
 `COMMAND eval --watch` evaluates again after an edit, says what is wrong with a program and goes on, and ends at an
-interrupt with exit code 0.
+interrupt with exit code 0. So it does with a program in JSON, and with one of OpenSCAD's language and the files that it
+includes, where a script stands in for OpenSCAD.
 """
 import json
 import os
@@ -56,6 +57,48 @@ def program(size, pegs=30):
     return 'union() { cube(size = %g);\n%s}\n' % (size, ''.join(peg % (4 * i) for i in range(2, pegs)))
 
 
+STAND_IN = '''#!/bin/sh
+# OpenSCAD -o OUT -d RULE MODEL: the form is what the model and the file beside it say.
+printf 'x: \\\\\n\t%s \\\\\n\t%s\n' "$(dirname "$5")/part\\\\ 1.inc" "$5" > "$4"
+cat "$5" "$(dirname "$5")/part 1.inc" > "$2"
+'''
+
+
+def watch_json(command, folder):
+    model = os.path.join(folder, 'm.json')
+    mesh = os.path.join(folder, 'j.off')
+    write(model, '{"nodes": [{"node": "cube", "arguments": {"size": 2}}]}')
+    watched = Watched(command, model, '-o', mesh)
+    watched.wait_for('evaluated in')
+    write(model, '{"nodes": [{"node": "cube", "arguments": {"size": 3}}]}')
+    watched.wait_for('evaluated in')
+    assert volume(command, mesh) == 27
+    watched.process.send_signal(signal.SIGINT)
+    assert watched.process.wait(60) == 0
+
+
+def watch_scad(command, folder):
+    stand_in = os.path.join(folder, 'openscad')
+    write(stand_in, STAND_IN)
+    os.chmod(stand_in, 0o755)
+    model = os.path.join(folder, 'm.scad')
+    part = os.path.join(folder, 'part 1.inc')
+    mesh = os.path.join(folder, 's.off')
+    write(part, 'cube(size = 1);')
+    write(model, 'cube(size = 2);')
+    watched = Watched(command, model, '-o', mesh, '--openscad', stand_in)
+    watched.wait_for('evaluated in')
+    assert volume(command, mesh) == 8
+    write(part, 'cube(size = 3);')
+    watched.wait_for('evaluated in')
+    assert volume(command, mesh) == 27
+    write(model, 'cube(size = 4);')
+    watched.wait_for('evaluated in')
+    assert volume(command, mesh) == 64
+    watched.process.send_signal(signal.SIGINT)
+    assert watched.process.wait(60) == 0
+
+
 def main(command):
     with tempfile.TemporaryDirectory() as folder:
         model = os.path.join(folder, 'm.csg')
@@ -80,6 +123,8 @@ def main(command):
         refused = subprocess.run([command, 'eval', '-', '-o', mesh, '--watch'], input=b'cube(size = 1);', check=False,
                                  capture_output=True)
         assert refused.returncode == 2, refused.returncode
+        watch_json(command, folder)
+        watch_scad(command, folder)
     return 0
 
 

@@ -411,5 +411,48 @@ TEST(CsgEvaluate, Refusals) {
     EXPECT_EQ(code_of("rotate_extrude() square(size = 2, center = true);"), 3);
 }
 
+TEST(CsgEvaluate, EqualSubtreesAreMadeOnce) {
+    const std::string hull = "hull() { cube(size = 1); sphere(r = 1, $fn = 5); } ";
+    const std::string extrusion =
+        "linear_extrude(height = 1, twist = 20) square(size = 3); rotate_extrude() square(size = "
+        "2); ";
+    CsgReport once;
+    CsgReport twice;
+    EXPECT_EQ(volume_of(hull + extrusion, &once),
+              volume_of(hull + extrusion + hull + extrusion, &twice));
+    EXPECT_EQ(once.found_again, 0U);
+    EXPECT_EQ(twice.found_again, 3U);
+    EXPECT_EQ(twice.by_name.at("hull"), (CsgNodeCount{2, 1}));
+    EXPECT_EQ(twice.by_name.at("linear_extrude"), (CsgNodeCount{2, 1}));
+    EXPECT_EQ(twice.by_name.at("cube"), (CsgNodeCount{2, 0}));
+    EXPECT_EQ(once.evaluations, twice.evaluations);
+    // Nodes that do not count are not counted.
+    (void)volume_of("cube(size = 1); *sphere(r = 1); cube(size = 1);", &once);
+    EXPECT_EQ(once.by_name.size(), 1U);
+    EXPECT_EQ(once.by_name.at("cube"), (CsgNodeCount{2, 1}));
+}
+
+TEST(CsgEvaluate, ProgressNamesTheNode) {
+    const CsgTree tree = parse_csg(
+        "difference() {\n  hull() { cube(size = 1); }\n  *cube(size = 9);\n"
+        "  minkowski() { cube(size = 1); sphere(r = 1, $fn = 4); }\n}",
+        "f");
+    std::string said;
+    std::size_t last = 0;
+    CsgOptions options;
+    options.on_progress = [&](const CsgProgress& p) {
+        EXPECT_EQ(p.count, 6U);
+        EXPECT_GE(p.done, last);
+        last = p.done;
+        said += p.node == nullptr ? "formula"
+                                  : p.node->name + std::to_string(p.node->place.line) + ":" +
+                                        std::to_string(p.done) + " ";
+    };
+    (void)evaluate_csg(tree, options);
+    EXPECT_EQ(said,
+              "difference1:0 hull2:0 cube2:0 hull2:1 difference1:2 minkowski4:2 cube4:2 "
+              "minkowski4:3 sphere4:3 minkowski4:4 difference1:5 formula");
+}
+
 }  // namespace
 }  // namespace trisect

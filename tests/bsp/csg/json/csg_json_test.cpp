@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Programs as JSON: the same trees, and what is refused.
-#include <trisect/bsp/csg/csg_json.h>
+#include <trisect/bsp/csg/json/csg_json.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Programs as JSON: the same trees as those of the evaluated form, for other programs to write.
+// Programs as JSON, for other programs to write.
+// The trees are those of the evaluated form.
 //
 //     {"schema": "trisect.csg/1",
 //      "nodes": [{"node": "difference", "children": [

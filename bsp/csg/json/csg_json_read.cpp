@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/csg/csg_json.h>
-#include <trisect/bsp/csg/csg_json_scanner.h>
 #include <trisect/bsp/csg/csg_parameters.h>
+#include <trisect/bsp/csg/json/csg_json.h>
+#include <trisect/bsp/csg/json/csg_json_scanner.h>
 
 namespace trisect {
 namespace {

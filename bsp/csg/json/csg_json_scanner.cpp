@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/csg/csg_json_scanner.h>
+#include <trisect/bsp/csg/json/csg_json_scanner.h>
 
 #include <algorithm>
 #include <charconv>

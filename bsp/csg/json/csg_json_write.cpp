@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include <trisect/bsp/csg/csg_json.h>
-#include <trisect/bsp/csg/csg_json_scanner.h>
+#include <trisect/bsp/csg/json/csg_json.h>
+#include <trisect/bsp/csg/json/csg_json_scanner.h>
 
 namespace trisect {
 namespace {
