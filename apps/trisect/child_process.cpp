@@ -28,7 +28,7 @@ constexpr int poll_milliseconds = 50;
 
 [[noreturn]] void fail(const std::string& program, int error) {
     if (error == ENOENT) throw MissingProgram(program + ": there is no such program");
-    throw InputError({program, 0, 0, 0}, std::string("cannot be run: ") + std::strerror(error));
+    throw Error(ErrorCode::Input, program + ": cannot be run: " + std::strerror(error));
 }
 
 class Pipe {

@@ -27,7 +27,7 @@ struct ChildOutcome {
 /// Runs a program, found on PATH unless its name has a slash, without a shell, and waits for it.
 /// Its standard input is empty. Within Session::interruptible_stage() it is killed, with all that
 /// it started, when the command is to stop; \throw CancelledError then. MissingProgram when there
-/// is no such program, InputError when it cannot be run.
+/// is no such program, Error (Input) when it cannot be run.
 [[nodiscard]] ChildOutcome run_child(Session& session, const std::vector<std::string>& words);
 
 }  // namespace trisect::app

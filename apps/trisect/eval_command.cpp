@@ -3,8 +3,8 @@
 // eval MODEL -o OUT: the set that a program describes, in OpenSCAD's evaluated form or in JSON.
 #include <trisect/brep/measure.h>
 #include <trisect/bsp/csg/csg_evaluate.h>
-#include <trisect/bsp/csg/grid/csg_openscad_grid.h>
 #include <trisect/bsp/csg/csg_session.h>
+#include <trisect/bsp/csg/grid/csg_openscad_grid.h>
 #include <trisect/kernel/error.h>
 
 #include <chrono>
@@ -105,7 +105,9 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
                         "the OpenSCAD that evaluates .scad files (default: that of "
                         "TRISECT_OPENSCAD, or openscad on PATH)");
     command
-        ->add_option("-D,--define", options.definitions, "NAME=VALUE for OpenSCAD; may come again")
+        ->add_option("-D,--define", options.definitions,
+                     "for OpenSCAD, VALUE in its language; may come again")
+        ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     command->add_flag("--openscad-grid", options.openscad_grid,
                       "with the rounded numbers of OpenSCAD's CGAL: for comparison only");
@@ -119,8 +121,9 @@ void add_eval_command(CLI::App& app, EvalOptions& options) {
                       "files");
     command->add_flag("!--no-certificate", options.certificate,
                       "do not check the rounded result for self-intersection; --watch never does");
-    command->add_flag("--summary", options.summary,
-                      "also numbers of nodes and shapes, volume and time");
+    command->add_flag(
+        "--summary", options.summary,
+        "also nodes by name, subtrees found again by content, volume, memory and time");
 }
 
 namespace {
@@ -218,10 +221,6 @@ Outcome watch(Session& session, const EvalOptions& options, ProgramSource& sourc
         return last;
     }
 }
-
-}  // namespace
-
-namespace {
 
 void check_options(const EvalOptions& options) {
     const bool writes_program = has_program_name(options.output);

@@ -30,8 +30,7 @@ public:
     TemporaryFolder() {
         std::string name = (fs::temp_directory_path() / "trisect-XXXXXX").string();
         if (::mkdtemp(name.data()) == nullptr)
-            throw InputError({name, 0, 0, 0},
-                             std::string("no temporary folder: ") + std::strerror(errno));
+            throw Error(ErrorCode::Input, name + ": no temporary folder: " + std::strerror(errno));
         path_ = name;
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
@@ -135,8 +134,8 @@ OpenScadForm run_openscad(Session& session, const OpenScadRequest& request) {
     if (child.code != 0 || !fs::exists(form, none)) {
         const std::string how = child.code < 0 ? "was ended by a signal"
                                                : fmt::format("ended with code {}", child.code);
-        throw InputError({request.model, 0, 0, 0},
-                         fmt::format("{} {}: {}", words[0], how, errors_in(lines)));
+        throw Error(ErrorCode::Input,
+                    fmt::format("{}: {} {}: {}", request.model, words[0], how, errors_in(lines)));
     }
     OpenScadForm out;
     out.text = read_file(form, most_bytes).view();

@@ -23,8 +23,9 @@ struct OpenScadForm {
 };
 
 /// What OpenSCAD says is noted. Its files are in a temporary folder, which is gone afterwards.
-/// Within Session::interruptible_stage(). \throw MissingProgram; InputError, with what OpenSCAD
-/// says, when it ends with an error; UsageError for a definition without a name; CancelledError
+/// Within Session::interruptible_stage(). \throw MissingProgram; Error (Input), with what
+/// OpenSCAD says, when it ends with an error; UsageError for a definition without a name;
+/// CancelledError
 [[nodiscard]] OpenScadForm run_openscad(Session& session, const OpenScadRequest& request);
 
 /// The names behind the colon of a rule for make, blanks in them behind a backslash.

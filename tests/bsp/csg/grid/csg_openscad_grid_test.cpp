@@ -71,7 +71,7 @@ TEST(CsgOpenScadGrid, VolumesOfShapes) {
     // Moved before it is cut off.
     EXPECT_EQ(volume_of("multmatrix([[1,0,0,0.1],[0,1,0,0],[0,0,1,0],[0,0,0,1]])"
                         "{ cube(size = [0.1, 1, 1]); }"),
-              "13107/131072");
+              "52429/524288");
     EXPECT_EQ(volume_of("cube(size = [1e-7, 1, 1]);"), "0");
     EXPECT_EQ(volume_of("union();"), "0");
     EXPECT_EQ(volume_of("intersection() { cube(size = 1); group(); }"), "0");
