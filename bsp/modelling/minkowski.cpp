@@ -16,9 +16,9 @@
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/flat_prism.h>
 #include <trisect/bsp/modelling/convex_pieces.h>
+#include <trisect/bsp/modelling/pieces/plane_sums.h>
+#include <trisect/bsp/modelling/pieces/sum_hull.h>
 #include <trisect/bsp/modelling/plane_region.h>
-#include <trisect/bsp/modelling/plane_sums.h>
-#include <trisect/bsp/modelling/sum_hull.h>
 #include <trisect/bsp/solid_transform.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>

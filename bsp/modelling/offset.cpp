@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <trisect/bsp/flat_prism.h>
+#include <trisect/bsp/modelling/pieces/plane_triangles.h>
 #include <trisect/bsp/modelling/plane_region.h>
-#include <trisect/bsp/modelling/plane_triangles.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include <trisect/bsp/modelling/plane_turn.h>
+#include <trisect/bsp/modelling/pieces/plane_turn.h>
 
 namespace trisect {
 

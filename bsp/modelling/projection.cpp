@@ -6,7 +6,7 @@
 #include <span>
 
 #include <trisect/bsp/modelling/mesh_section.h>
-#include <trisect/bsp/modelling/plane_triangles.h>
+#include <trisect/bsp/modelling/pieces/plane_triangles.h>
 #include <trisect/bsp/modelling/section_prism.h>
 
 namespace trisect {

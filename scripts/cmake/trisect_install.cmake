@@ -122,8 +122,6 @@ set(private_headers
     brep/primitives/degrees.h
     brep/validate/checked_mesh.h
     brep/contact/contact_filter.h
-    brep/contact/graph_corners.h
-    brep/contact/turned_points.h
     brep/validate/manifold_mesh.h
     brep/validate/oriented_box.h
     brep/validate/fans.h
@@ -144,15 +142,15 @@ set(private_headers
     bsp/csg/csg_key.h
     bsp/csg/csg_kind.h
     bsp/csg/csg_lexer.h
+    bsp/csg/csg_node_progress.h
     bsp/csg/csg_program.h
     bsp/csg/csg_region.h
     bsp/csg/csg_shapes.h
+    bsp/csg/grid/csg_grid_points.h
+    bsp/csg/json/csg_json_scanner.h
     bsp/modelling/convex_pieces.h
     bsp/modelling/layered_walls.h
     bsp/modelling/mesh_section.h
-    bsp/modelling/plane_sums.h
-    bsp/modelling/plane_turn.h
-    bsp/modelling/sum_hull.h
     bsp/trisect.h
     kernel/plane_value.h
     kernel/triangle_pair.h
@@ -167,12 +165,14 @@ foreach(
         brep/curved
         brep/interop
         brep/io
-        brep/mend
         brep/level_set
+        brep/mend
         brep/primitives
         brep/validate
         bsp
         bsp/csg
+        bsp/csg/grid
+        bsp/csg/json
         bsp/interference
         bsp/modelling
 )

@@ -4,7 +4,7 @@
 // The directions that are extreme at a corner of a convex solid are those between the normals of
 // its faces there. A cone around these is a cheap test that drops most of the pairs of two round
 // solids; it is widened by far more than the errors of its doubles.
-#include <trisect/bsp/modelling/sum_hull.h>
+#include <trisect/bsp/modelling/pieces/sum_hull.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/modelling/plane_turn.h>
+#include <trisect/bsp/modelling/pieces/plane_turn.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 //
 // The winding number of all sides together at a point is the number of triangles there, so what is
 // inside by the positive rule is their union.
-#include <trisect/bsp/modelling/plane_triangles.h>
+#include <trisect/bsp/modelling/pieces/plane_triangles.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include <trisect/bsp/flat_prism.h>
-#include <trisect/bsp/modelling/plane_turn.h>
+#include <trisect/bsp/modelling/pieces/plane_turn.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 

@@ -8,7 +8,7 @@
 //
 // Where sides are parallel, those of the second outline count as turned to the left by an
 // infinitesimal. Directions are compared exactly, so each corner is left as often as it is reached.
-#include <trisect/bsp/modelling/plane_sums.h>
+#include <trisect/bsp/modelling/pieces/plane_sums.h>
 
 #include <algorithm>
 #include <cmath>
