@@ -64,9 +64,8 @@ TEST(MinkowskiSum, OfSolidsAsCgalHasThem) {
 }
 
 TEST(MinkowskiSum, OfOffsetsAsCgalHasThem) {
-    const Solid octahedron = offset_of_solid(
-        evaluate(solids::box({0, 0, 0}, {1, 1, 1}) & solids::box({0, 0, 0}, {1, 1, 1})), 0.5,
-        {.shape = SolidOffsetOptions::Shape::Octahedron});
+    const Solid octahedron = offset_of_solid(solids::box({0, 0, 0}, {1, 1, 1}), 0.5,
+                                             {.shape = SolidOffsetOptions::Shape::Octahedron});
     EXPECT_EQ(volume_of(minkowski_sum(frame(), octahedron)), cgal_volume(frame(), octahedron));
     const Solid ball = solids::ball(0.5, 0, {}, 0x1p-8);
     EXPECT_EQ(volume_of(offset_of_solid(bracket(), 1, ball)), cgal_volume(bracket(), ball));
