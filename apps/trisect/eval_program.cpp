@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
+constexpr std::uint64_t most_program_bytes = std::uint64_t{1} << 28;
 
 std::string extension_of(const std::string& name) {
     std::string out = fs::path(name).extension().string();
@@ -55,8 +55,8 @@ CsgTree ProgramSource::read() {
     return session_.stage("read", [&] {
         const bool is_stream = options_.input == "-";
         if (!is_stream) files_.assign(1, WatchedFile(options_.input));
-        const FileBytes bytes = is_stream ? read_descriptor(0, "standard input", most_bytes)
-                                          : read_file(options_.input, most_bytes);
+        const FileBytes bytes = is_stream ? read_descriptor(0, "standard input", most_program_bytes)
+                                          : read_file(options_.input, most_program_bytes);
         const std::string name = is_stream ? "standard input" : options_.input;
         return form_ == ProgramForm::JsonText ? parse_csg_json(bytes.view(), name)
                                               : parse_csg(bytes.view(), name);

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28;
+constexpr std::uint64_t most_form_bytes = std::uint64_t{1} << 28;
 constexpr std::size_t most_errors = 5;  // lines of a message
 
 class TemporaryFolder {
@@ -138,9 +138,9 @@ OpenScadForm run_openscad(Session& session, const OpenScadRequest& request) {
                     fmt::format("{}: {} {}: {}", request.model, words[0], how, errors_in(lines)));
     }
     OpenScadForm out;
-    out.text = read_file(form, most_bytes).view();
+    out.text = read_file(form, most_form_bytes).view();
     if (fs::exists(rule, none))
-        out.files = files_of_rule(std::string(read_file(rule, most_bytes).view()));
+        out.files = files_of_rule(std::string(read_file(rule, most_form_bytes).view()));
     return out;
 }
 

@@ -8,15 +8,15 @@
 namespace trisect::detail {
 namespace {
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_json_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_json_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 std::uint32_t byte_of(char c) { return static_cast<unsigned char>(c); }
 
 /// How long a number by JSON's grammar is; 0 where there is none.
 std::size_t number_length(std::string_view text) {
     std::size_t i = 0;
-    const auto is_digit_at = [&] { return i < text.size() && is_digit(text[i]); };
+    const auto is_digit_at = [&] { return i < text.size() && is_json_digit(text[i]); };
     const auto is_at = [&](std::string_view any) {
         return i < text.size() && any.find(text[i]) != std::string_view::npos;
     };
@@ -114,7 +114,7 @@ void CsgJsonScanner::step(std::size_t count) {
 }
 
 void CsgJsonScanner::skip_blanks() {
-    while (is_blank(at())) step();
+    while (is_json_blank(at())) step();
 }
 
 char CsgJsonScanner::next() {
