@@ -49,7 +49,7 @@ struct LevelSetOptions {
 ///
 /// Where samples leave the surface no simple place (a value at the level in a corner where parts of
 /// the set meet), vertices stay away from the corner by 1/256 of the edge, so that parts are apart.
-/// O(cells), some 30 ns each, and two calls of the function for each.
+/// O(cells), some tenths of a microsecond each, and two calls of the function for each.
 /// \throw UsageError for a box without volume or with sides that are not finite, a length that is
 /// not positive, values that are not finite (with the place); LimitError for more cells than
 /// allowed, or coordinates of the box beyond 2^20 cells; what the function throws; CancelledError
