@@ -84,7 +84,7 @@ std::string left_text(const MendReport& report) {
     for (const OpenBoundary& b : report.open)
         out += fmt::format("{:<13}{} edges, {} long, {} vertex {} {}\n", "still open", b.edges,
                            number_text(b.length), b.is_loop ? "a loop at" : "at", b.vertex,
-                           place_text(b.place));
+                           trisect::place_text(b.place));
     if (report.misoriented_edges != 0)
         out += fmt::format("{:<13}{} edges that faces do not run along as often each way\n",
                            "still open", report.misoriented_edges);
