@@ -109,4 +109,26 @@ TEST(ManifoldInterface, Questions) {
     EXPECT_EQ(Manifold::ReadOBJ(file).Volume(), 2);
 }
 
+// Both parts come from one evaluation, with the runs and properties of two.
+TEST(ManifoldInterface, SplitsAreThoseOfTwoOperations) {
+    const manifold::Manifold a = manifold::Manifold::Sphere(1, 32);
+    const manifold::Manifold b = manifold::Manifold::Sphere(0.75, 24).Translate({0.5, 0.25, 0.125});
+    const auto expect_same = [](const manifold::Manifold& m, const manifold::Manifold& wanted) {
+        EXPECT_EQ(m.Volume(), wanted.Volume());
+        const auto mesh = m.GetMeshGL64();
+        const auto expected = wanted.GetMeshGL64();
+        EXPECT_EQ(mesh.triVerts, expected.triVerts);
+        EXPECT_EQ(mesh.vertProperties, expected.vertProperties);
+        EXPECT_EQ(mesh.runIndex, expected.runIndex);
+    };
+    const auto [common, rest] = a.Split(b);
+    expect_same(common, a ^ b);
+    expect_same(rest, a - b);
+    EXPECT_TRUE(a.Split(a).second.IsEmpty());
+    const auto [above, below] = a.SplitByPlane({1, 2, 3}, 0.125);
+    expect_same(above, a.TrimByPlane({1, 2, 3}, 0.125));
+    EXPECT_EQ(below.Volume(), a.TrimByPlane({-1, -2, -3}, -0.125).Volume());
+    EXPECT_TRUE(manifold::Manifold().Split(a).first.IsEmpty());
+}
+
 }  // namespace
