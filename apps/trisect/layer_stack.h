@@ -36,7 +36,7 @@ struct LayerStack {
 };
 
 /// Numbers have the shortest digits that read back as the same doubles.
-enum class LayerFormat { Svg, Dxf, Cli, Json };
+enum class LayerFormat { Svg, Dxf, Cli, JsonText };
 
 /// A group for each layer, with a polygon for each loop, as Slic3r writes them: `slic3r:z` has the
 /// height, `slic3r:type` is contour or hole.

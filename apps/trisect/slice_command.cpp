@@ -22,7 +22,7 @@ namespace {
 const Choices<LayerFormat> layer_formats{{"svg", LayerFormat::Svg},
                                          {"dxf", LayerFormat::Dxf},
                                          {"cli", LayerFormat::Cli},
-                                         {"json", LayerFormat::Json}};
+                                         {"json", LayerFormat::JsonText}};
 
 /// By --as, or the name; a drawing else.
 LayerFormat format_of(const SliceCommandOptions& options) {
@@ -105,7 +105,7 @@ std::string text_of(const LayerStack& stack, LayerFormat format) {
             return dxf_of_layers(stack);
         case LayerFormat::Cli:
             return cli_of_layers(stack);
-        case LayerFormat::Json:
+        case LayerFormat::JsonText:
             return json_of_layers(stack);
         case LayerFormat::Svg:
             break;
