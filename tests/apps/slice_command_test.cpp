@@ -36,8 +36,8 @@ Loops in_order(Loops loops) {
 Loops loops_of(const ::trisect::Slice& slice) {
     Loops out;
     for (const auto& loop : slice.loops) {
-        auto& corners = out.emplace_back();
-        for (const std::uint32_t v : loop) corners.push_back(slice.points[v]);
+        auto& places = out.emplace_back();
+        for (const std::uint32_t v : loop) places.push_back(slice.points[v]);
     }
     return in_order(out);
 }
