@@ -204,7 +204,8 @@ constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
     Rule{"two meshes",
-         "∪, ∩, − or ⊕ of two imported meshes, 4 facets each, without an index, of a size, or of "
+         "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, without an index, of a "
+         "size, or of "
          "which the larger one is not large and was not compared so before; no work limit",
          "uncrossed facets, crossings", &Stats::filtered_leaves,
          FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},

@@ -19,9 +19,10 @@ namespace trisect::detail {
 /// Whether a formula is a union, an intersection, a difference or an exclusive or of two imported
 /// meshes, and work is not limited. Not where one has an index, or is far larger than the other and
 /// large, or was compared with such a one before: it gets an index then, and what is beside the
-/// smaller one is not looked at. Meshes of fewer than `least_facets` are one leaf of a tree.
+/// smaller one is not looked at. Not where one has fewer than `least_facets` and the other one few,
+/// too, so that both are a leaf or two of a tree.
 [[nodiscard]] bool are_two_meshes(const Residual::Ref& formula, const SolidStates& solids,
-                                  const EvaluateSettings& options, std::size_t least_facets = 4);
+                                  const EvaluateSettings& options, std::size_t least_facets = 16);
 
 /// The value of such a formula, with that tree. Nothing where a pair of facets is not decided, or
 /// sides of facets are not known from the pairs. What it returns does not depend on the number of

@@ -180,8 +180,7 @@ void bind_programs(py::class_<Solid>& c) {
                     options);
             });
         },
-        py::arg("text"), py::kw_only(), py::arg("folder") = py::none(),
-        py::arg("format") = "csg",
+        py::arg("text"), py::kw_only(), py::arg("folder") = py::none(), py::arg("format") = "csg",
         R"(The solid of a program in OpenSCAD's evaluated form, or in JSON.
 
 Parameters

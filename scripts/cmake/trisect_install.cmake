@@ -151,6 +151,7 @@ set(private_headers
     bsp/modelling/convex_pieces.h
     bsp/modelling/layered_walls.h
     bsp/modelling/mesh_section.h
+    bsp/modelling/section_prism.h
     bsp/trisect.h
     kernel/plane_value.h
     kernel/triangle_pair.h

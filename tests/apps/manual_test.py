@@ -15,7 +15,7 @@ import subprocess
 import sys
 import time
 
-OPTION = re.compile(r'^  (-[a-z]|--[a-z-]+)(?:,(--[a-z-]+))?', re.MULTILINE)
+OPTION = re.compile(r'^  (-[A-Za-z]|--[a-z-]+)(?:,(--[a-z-]+))?', re.MULTILINE)
 FRESH = {'PATH': '/usr/bin:/bin', 'TERM': 'dumb', 'LC_ALL': 'C.UTF-8', 'PS1': '$ ', 'HOME': '/nonexistent'}
 
 problems = []

@@ -15,10 +15,10 @@
 #include <trisect/bsp/solid_transform.h>
 
 #include <trisect/bsp/csg/csg_frame.h>
-#include <trisect/bsp/csg/grid/csg_grid_points.h>
 #include <trisect/bsp/csg/csg_node_progress.h>
 #include <trisect/bsp/csg/csg_program.h>
 #include <trisect/bsp/csg/csg_shapes.h>
+#include <trisect/bsp/csg/grid/csg_grid_points.h>
 
 namespace trisect::detail {
 namespace {

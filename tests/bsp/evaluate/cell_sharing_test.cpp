@@ -63,7 +63,8 @@ Solid ball_with_tree() {
 
 // One that has been cut.
 Solid refined_ball() {
-    return evaluate(ball_with_tree() - Solid::from_mesh(trisect::make_box({50, -20, -20}, {120, 20, 20})));
+    return evaluate(ball_with_tree() -
+                    Solid::from_mesh(trisect::make_box({50, -20, -20}, {120, 20, 20})));
 }
 
 TEST(CellSharing, ATouchlessOperandIsSharedWhole) {
