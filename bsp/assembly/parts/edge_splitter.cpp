@@ -174,7 +174,8 @@ EdgeSplitter::Inside EdgeSplitter::find_once(const BoundaryEdge& e) {
 
 // Of the edge between two points, either way; else a free one.
 std::uint32_t& EdgeSplitter::slot_of(PointId from, PointId to) {
-    const auto [low, high] = std::minmax(from, to);
+    const PointId low = std::min(from, to);
+    const PointId high = std::max(from, to);
     const std::size_t mask = slots_.size() - 1;
     std::size_t i = static_cast<std::size_t>(mix64(static_cast<std::uint64_t>(low) << 32U |
                                                    static_cast<std::uint32_t>(high))) &
