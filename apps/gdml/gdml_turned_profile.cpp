@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include <trisect/brep/primitives/degrees.h>
 
 #include "gdml_shape.h"
 
@@ -9,18 +10,6 @@ namespace trisect::app {
 namespace {
 
 constexpr double most_facets = 1U << 22;
-
-double sine(double degrees) {
-    double a = std::fmod(degrees, 360);
-    if (a < 0) a += 360;
-    const double sign = a >= 180 ? -1 : 1;
-    if (a >= 180) a -= 180;
-    if (a > 90) a = 180 - a;
-    if (a == 30) return sign * 0.5;
-    if (a > 45) return sign * std::cos((90 - a) * std::numbers::pi / 180);
-    return sign * std::sin(a * std::numbers::pi / 180) + 0.0;
-}
-double cosine(double degrees) { return sine(degrees + 90); }
 
 /// Where corners are, without the end of a whole turn.
 std::vector<double> angles_of(const GdmlTurn& turn, std::uint32_t facets) {
@@ -53,8 +42,9 @@ public:
             first_[k] = static_cast<std::uint32_t>(mesh.points.size());
             const auto& [r, z] = profile[k];
             for (const double a : angles) {
-                mesh.points.push_back({std::nearbyint(r * turn.scale_x * cosine(a)) + 0.0,
-                                       std::nearbyint(r * turn.scale_y * sine(a)) + 0.0, z});
+                mesh.points.push_back(
+                    {std::nearbyint(r * turn.scale_x * detail::cosine_of_degrees(a)) + 0.0,
+                     std::nearbyint(r * turn.scale_y * detail::sine_of_degrees(a)) + 0.0, z});
                 if (r == 0) break;
             }
         }

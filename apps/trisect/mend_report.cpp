@@ -16,20 +16,6 @@
 namespace trisect::app {
 namespace {
 
-std::string_view name_of(ShellTrouble trouble) {
-    switch (trouble) {
-        case ShellTrouble::Open:
-            return "open";
-        case ShellTrouble::NoVolume:
-            return "no_volume";
-        case ShellTrouble::MeetsOthers:
-            return "meets_others";
-        case ShellTrouble::WithinMeeting:
-            return "within_meeting";
-    }
-    return "";
-}
-
 template <class Entry, class ToJson>
 Json list_json(const std::vector<Entry>& all, std::size_t places, const ToJson& to_json) {
     Json out;

@@ -23,6 +23,20 @@
 
 namespace trisect {
 
+std::string_view name_of(ShellTrouble trouble) {
+    switch (trouble) {
+        case ShellTrouble::Open:
+            return "open";
+        case ShellTrouble::NoVolume:
+            return "no_volume";
+        case ShellTrouble::MeetsOthers:
+            return "meets_others";
+        case ShellTrouble::WithinMeeting:
+            return "within_meeting";
+    }
+    return "";
+}
+
 namespace {
 
 using detail::MendingMesh;

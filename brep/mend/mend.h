@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <trisect/brep/polygon_mesh.h>
@@ -84,6 +85,8 @@ enum class ShellTrouble : std::uint8_t {
     MeetsOthers,   ///< it crosses or overlaps another shell (with Cavities)
     WithinMeeting  ///< it lies within shells that cross, or its place could not be found
 };
+/// As commands write it: "open", "no_volume", "meets_others", "within_meeting".
+[[nodiscard]] std::string_view name_of(ShellTrouble trouble);
 
 struct ShellLeft {
     std::uint32_t face = 0;  ///< its first one

@@ -5,6 +5,7 @@
 #include <trisect/bsp/csg/csg_lexer.h>
 #include <trisect/bsp/csg/csg_parameters.h>
 #include <trisect/bsp/csg/csg_tree.h>
+#include <trisect/bsp/csg/nesting_level.h>
 
 namespace trisect {
 namespace {
@@ -22,21 +23,9 @@ public:
     }
 
 private:
-    /// One more level while it lives: recursion is as deep as the text.
-    class Level {
-    public:
-        explicit Level(Parser& parser) : depth_(parser.depth_) {
-            if (++depth_ > parser.limits_.depth)
-                parser.exceed("more than " + std::to_string(parser.limits_.depth) +
-                              " levels of nodes and lists");
-        }
-        Level(const Level&) = delete;
-        Level& operator=(const Level&) = delete;
-        ~Level() { --depth_; }
-
-    private:
-        std::uint32_t& depth_;
-    };
+    [[nodiscard]] detail::NestingLevel deeper() {
+        return {depth_, limits_.depth, [this](const std::string& message) { exceed(message); }};
+    }
 
     [[noreturn]] void exceed(const std::string& message) const {
         throw CsgError(ErrorCode::Limit, tree_.place(lexer_.token().place), message);
@@ -57,7 +46,7 @@ private:
     // A node, a block without a name, or nothing.
     void read_child(std::vector<std::uint32_t>& siblings) {
         if (take_if(';')) return;
-        const Level level(*this);
+        const auto level = deeper();
         if (lexer_.is('{')) return read_block(siblings);
         read_node(siblings);
     }
@@ -136,7 +125,7 @@ private:
     }
 
     CsgValue read_value() {
-        const Level level(*this);
+        const auto level = deeper();
         if (++values_ > limits_.values)
             exceed("more than " + std::to_string(limits_.values) + " values");
         CsgValue out;

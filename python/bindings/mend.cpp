@@ -22,20 +22,6 @@ namespace trisect::python {
 
 namespace {
 
-const char* word_of(ShellTrouble trouble) {
-    switch (trouble) {
-        case ShellTrouble::Open:
-            return "open";
-        case ShellTrouble::NoVolume:
-            return "no_volume";
-        case ShellTrouble::MeetsOthers:
-            return "meets_others";
-        case ShellTrouble::WithinMeeting:
-            return "within_meeting";
-    }
-    return "";
-}
-
 InnerShells inner_of(const std::string& word) {
     if (word == "cavities") return InnerShells::Cavities;
     if (word == "material") return InnerShells::Material;
@@ -109,7 +95,7 @@ void bind_lists(ReportClass& report) {
             "shells_left",
             [](const MendReport& r) {
                 return list_of(r.shells_left, [](const ShellLeft& s) {
-                    return py::make_tuple(name_of_face(s.face), s.faces, word_of(s.trouble));
+                    return py::make_tuple(name_of_face(s.face), s.faces, name_of(s.trouble));
                 });
             },
             "Shells that were left as they are: first face, number of faces, and why: 'open', "

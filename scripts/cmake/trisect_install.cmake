@@ -146,6 +146,7 @@ set(private_headers
     bsp/csg/csg_program.h
     bsp/csg/csg_region.h
     bsp/csg/csg_shapes.h
+    bsp/csg/nesting_level.h
     bsp/csg/grid/csg_grid_points.h
     bsp/csg/json/csg_json_scanner.h
     bsp/modelling/convex_pieces.h

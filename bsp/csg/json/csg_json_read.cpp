@@ -11,6 +11,7 @@
 #include <trisect/bsp/csg/csg_parameters.h>
 #include <trisect/bsp/csg/json/csg_json.h>
 #include <trisect/bsp/csg/json/csg_json_scanner.h>
+#include <trisect/bsp/csg/nesting_level.h>
 
 namespace trisect {
 namespace {
@@ -45,21 +46,9 @@ public:
     }
 
 private:
-    /// One more level while it lives: recursion is as deep as the text.
-    class Level {
-    public:
-        explicit Level(Reader& reader) : depth_(reader.depth_) {
-            if (++depth_ > reader.limits_.depth)
-                reader.exceed("more than " + std::to_string(reader.limits_.depth) +
-                              " levels of nodes and lists");
-        }
-        Level(const Level&) = delete;
-        Level& operator=(const Level&) = delete;
-        ~Level() { --depth_; }
-
-    private:
-        std::uint32_t& depth_;
-    };
+    [[nodiscard]] detail::NestingLevel deeper() {
+        return {depth_, limits_.depth, [this](const std::string& message) { exceed(message); }};
+    }
 
     [[noreturn]] void exceed(const std::string& message) {
         throw CsgError(ErrorCode::Limit, tree_.place(scanner_.place()), message);
@@ -110,7 +99,7 @@ private:
     }
 
     void read_node(std::vector<std::uint32_t>& siblings) {
-        const Level level(*this);
+        const auto level = deeper();
         if (tree_.nodes.size() >= limits_.nodes)
             exceed("more than " + std::to_string(limits_.nodes) + " nodes");
         const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
@@ -189,7 +178,7 @@ private:
     }
 
     CsgValue read_value() {
-        const Level level(*this);
+        const auto level = deeper();
         if (++values_ > limits_.values)
             exceed("more than " + std::to_string(limits_.values) + " values");
         CsgValue out;
