@@ -21,10 +21,10 @@ struct PropertyOperand {
 };
 
 struct PropertyMesh {
-    PolygonMesh mesh;  ///< triangles
+    PolygonMesh mesh;  ///< triangles, if not made of other faces
     CornerProperties properties;
-    std::vector<FaceSource> source;  ///< by triangle: operand (the source_id) and face of its mesh
-    /// By triangle: whether it looks the other way than that face does, as walls of a hole do.
+    std::vector<FaceSource> source;  ///< by face: operand (the source_id) and face of its mesh
+    /// By face: whether it looks the other way than that face does, as walls of a hole do.
     /// Channels of normals are turned over there; numbers without names are as they are.
     std::vector<bool> is_turned_over;
 };
@@ -44,9 +44,9 @@ struct PropertyMesh {
 [[nodiscard]] PropertyMesh to_property_mesh(const Solid& solid,
                                             std::span<const PropertyOperand> operands);
 
-/// The same for triangles that are there already, of which `source` names the faces. Each lies
-/// within its face, but for rounding.
-[[nodiscard]] PropertyMesh with_properties(PolygonMesh triangles, std::vector<FaceSource> source,
+/// The same for faces that are there already, of which `source` names the faces of operands. Each
+/// lies within that face, but for rounding. What the source of a face names is not there: absent.
+[[nodiscard]] PropertyMesh with_properties(PolygonMesh faces, std::vector<FaceSource> source,
                                            std::span<const PropertyOperand> operands);
 
 }  // namespace trisect

@@ -263,10 +263,7 @@ void add_result_options(CLI::App* command, BooleanOptions& options) {
         "--repair", options.repair,
         "move what rounding lets intersect until the result is certified; exit code 1 "
         "if that fails");
-    command->add_flag("--properties", options.operands.properties,
-                      "keep materials, textures, texture coordinates, normals and colours of "
-                      "corners of OBJ, PLY, "
-                      "GLB and 3MF, in an output of one of these");
+    add_properties_option(*command, options.operands.properties);
     add_operand_options(*command, options.operands);
 }
 

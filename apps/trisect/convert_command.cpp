@@ -56,7 +56,7 @@ LatticeReport round_to_lattice(Model& model, Lattice lattice) {
 RoundingReport apply(const ExactMap& map, Model& model) {
     RoundingReport sum;
     for (ModelPart& part : model.parts) {
-        const RoundingReport report = map.apply(part.mesh);
+        const RoundingReport report = map.apply(part);
         sum.moved += report.moved;
         sum.max_move = std::max(sum.max_move, report.max_move);
     }
@@ -136,11 +136,7 @@ Outcome run_lossless_convert(Session& session, const ConvertOptions& options) {
 Outcome run_mesh_convert(Session& session, const ConvertOptions& options) {
     const MeshFormat format = output_format(session, options.output);
     check_outputs(session, {options.output});
-    if (options.properties) {
-        check_holds_properties(options.output, format);
-        if (has_transform(options))
-            throw UsageError("--properties: not with a transform, which would not turn normals");
-    }
+    if (options.properties) check_holds_properties(options.output, format);
     const ExactMap map = map_of(options);
     session.plan(3);
     InputModel input = session.stage(
@@ -204,9 +200,7 @@ void add_convert_command(CLI::App& app, ConvertOptions& options) {
             "-o,--output", options.output,
             "mesh, exact boundary (.exact) or native file (.trisect); '-' is the standard output")
         ->required();
-    command->add_flag("--properties", options.properties,
-                      "keep materials, textures, texture coordinates, normals and colours of "
-                      "corners of OBJ, PLY, GLB and 3MF, in one of these");
+    add_properties_option(*command, options.properties);
     add_transform_options(*command, options);
 }
 

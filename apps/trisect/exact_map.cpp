@@ -44,6 +44,61 @@ void turn_faces_over(PolygonMesh& mesh) {
     }
 }
 
+/// Corners of faces in the order that turn_faces_over() gives them.
+void turn_corners_over(const PolygonMesh& mesh, CornerProperties& properties) {
+    const std::size_t width = properties.width;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+        std::size_t first = mesh.face_begin[f] + 1;
+        std::size_t last = mesh.face_begin[f + 1];
+        for (; first + 1 < last; ++first) {
+            --last;
+            std::swap_ranges(properties.values.data() + first * width,
+                             properties.values.data() + (first + 1) * width,
+                             properties.values.data() + last * width);
+        }
+    }
+}
+
+using Rows3 = std::array<std::array<double, 3>, 3>;
+
+/// What normals are multiplied by: the cofactors of the matrix, with the sign of its determinant.
+/// Entries are brought to 1 at most before, so that no product leaves the range of doubles.
+Rows3 map_of_normals(const std::array<double, 12>& rows, int orientation) {
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) most = std::max(most, std::abs(rows[4 * i + j]));
+    const auto entry = [&](std::size_t i, std::size_t j) {
+        return rows[4 * (i % 3) + j % 3] / most;
+    };
+    Rows3 out{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            out[i][j] = orientation * (entry(i + 1, j + 1) * entry(i + 2, j + 2) -
+                                       entry(i + 1, j + 2) * entry(i + 2, j + 1));
+    return out;
+}
+
+void map_normal(const Rows3& map, double* normal) {
+    std::array<double, 3> image{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) image[i] += map[i][j] * normal[j];
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    const double now = std::hypot(image[0], image[1], image[2]);
+    if (!(now > 0)) return;  // absent, or none
+    for (std::size_t i = 0; i < 3; ++i) normal[i] = image[i] / now * length;
+}
+
+void map_normals(const Rows3& map, CornerProperties& properties) {
+    std::size_t column = 0;
+    for (const PropertyChannel& channel : properties.channels) {
+        const bool is_normal = channel.meaning == PropertyMeaning::Normal && channel.width == 3;
+        for (std::size_t i = column; is_normal && i < properties.values.size();
+             i += properties.width)
+            map_normal(map, properties.values.data() + i);
+        column += channel.width;
+    }
+}
+
 }  // namespace
 
 ExactMap ExactMap::from_rows(const std::array<double, 12>& rows) {
@@ -95,6 +150,14 @@ RoundingReport ExactMap::apply(PolygonMesh& mesh) const {
         report.max_move = std::max(report.max_move, image.move);
     }
     if (sign < 0) turn_faces_over(mesh);
+    return report;
+}
+
+RoundingReport ExactMap::apply(ModelPart& part) const {
+    const RoundingReport report = apply(part.mesh);
+    if (is_identity() || part.properties.width == 0) return report;
+    if (orientation() < 0) turn_corners_over(part.mesh, part.properties);
+    map_normals(map_of_normals(rows(), orientation()), part.properties);
     return report;
 }
 

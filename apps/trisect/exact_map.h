@@ -3,6 +3,7 @@
 // ExactMap: an exact map of space, and its rounding of a mesh.
 #pragma once
 
+#include <trisect/brep/io/model.h>
 #include <trisect/brep/number/exact_affine.h>
 #include <trisect/brep/polygon_mesh.h>
 
@@ -45,6 +46,9 @@ public:
     /// so that they still face outwards.
     /// \throw UsageError when the map makes space flat, LimitError beyond the range of doubles.
     RoundingReport apply(PolygonMesh& mesh) const;
+    /// The same with its properties. Normals stay across their faces and keep their lengths; they
+    /// are rounded as doubles are.
+    RoundingReport apply(ModelPart& part) const;
 
 private:
     ExactMap(const detail::ExactAffine& map) : map_(map) {}

@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 
 #include "choice.h"
 #include "commands.h"
 #include "import_notes.h"
 #include "mend_report.h"
+#include "mended_part.h"
 #include "mesh_files.h"
 #include "output_name.h"
 #include "values.h"
@@ -95,6 +97,7 @@ void add_mend_command(CLI::App& app, MendCommandOptions& options) {
             },
             "--orient --shells --drop --seams D")
         ->type_name("D");
+    add_properties_option(*command, options.properties);
     command
         ->add_option_function<std::string>(
             "--places",
@@ -110,13 +113,16 @@ void add_mend_command(CLI::App& app, MendCommandOptions& options) {
 Outcome run_mend(Session& session, const MendCommandOptions& options) {
     check_request(options);
     const MeshFormat format = output_format(session, options.output);
+    if (options.properties) check_holds_properties(options.output, format);
     check_outputs(session, {options.output});
     session.plan(4);
-    const PolygonMesh mesh =
-        session.stage("read", [&] { return read_input(session, options.input); });
+    Model model = session.stage("read", [&] {
+        return one_part(read_input_model(session, options.input, options.properties).model);
+    });
+    const PolygonMesh& mesh = model.parts.front().mesh;
     MendOptions what = options.what;
     if (session.options().lattice) what.lattice = Lattice{*session.options().lattice};
-    const MendedMesh out_mesh = session.interruptible_stage("mend", [&] {
+    MendedMesh out_mesh = session.interruptible_stage("mend", [&] {
         try {
             return mended(mesh, what);
         } catch (const LimitError& e) {
@@ -126,21 +132,31 @@ Outcome run_mend(Session& session, const MendCommandOptions& options) {
     note_rounding(session, out_mesh.report.lattice, options.input);
     const Closure closure =
         session.stage("check", [&] { return closure_of(session, out_mesh.mesh, options.output); });
-    session.stage("write",
-                  [&] { write_output_mesh(session, options.output, format, out_mesh.mesh); });
+    const std::size_t vertices = out_mesh.mesh.points.size();
+    const std::size_t faces = out_mesh.mesh.face_count();
+    const MendReport report = out_mesh.report;
+    session.stage("write", [&] {
+        if (!options.properties) {
+            write_output_mesh(session, options.output, format, out_mesh.mesh);
+            return;
+        }
+        ModelPart part = mended_part(model.parts.front(), std::move(out_mesh));
+        model.parts.front() = std::move(part);
+        write_output_model(session, options.output, format, std::move(model), true);
+    });
     Outcome out;
     out.code = closure.bounds_a_solid() ? exit_done : exit_findings;
     out.document["schema"] = "trisect.mend/1";
     out.document["input"] = options.input;
     out.document["output"] = options.output;
     out.document["format"] = to_string(format);
-    out.document["vertices"] = out_mesh.mesh.points.size();
-    out.document["faces"] = out_mesh.mesh.face_count();
+    out.document["vertices"] = vertices;
+    out.document["faces"] = faces;
     out.document["closed"] = closure.closed;
     out.document["inside_out"] = closure.inside_out;
-    out.document["mended"] = mend_json(out_mesh.report, options.places);
+    out.document["mended"] = mend_json(report, options.places);
     out.document["seconds"] = session.seconds();
-    out.remarks = mend_text(out_mesh.report) + fmt::format("{:<13}{}", "now", verdict_of(closure));
+    out.remarks = mend_text(report) + fmt::format("{:<13}{}", "now", verdict_of(closure));
     return out;
 }
 

@@ -180,6 +180,15 @@ PolygonMesh one_mesh(Model&& model) {
     return model.parts.size() == 1 ? std::move(model.parts.front().mesh) : merged(model);
 }
 
+Model one_part(Model&& model) {
+    Model out = std::move(model);
+    if (out.parts.size() == 1) return out;
+    ModelPart all = merged_part(out);
+    out.parts.clear();
+    out.parts.push_back(std::move(all));
+    return out;
+}
+
 PolygonMesh read_input(const Session& session, const std::string& name) {
     return one_mesh(read_input_model(session, name).model);
 }
@@ -210,6 +219,12 @@ ImportedMesh import_input(const Session& session, const PolygonMesh& mesh,
 ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
                                 const ValidateOptions& options) {
     return with_name(name, [&] { return validate(mesh, options); });
+}
+
+void add_properties_option(CLI::App& command, bool& properties) {
+    command.add_flag("--properties", properties,
+                     "keep materials, textures, texture coordinates, normals and colours of "
+                     "corners of OBJ, PLY, GLB and 3MF, in an output of one of these");
 }
 
 void check_holds_properties(const std::string& name, MeshFormat format) {
@@ -272,6 +287,14 @@ FormattedMesh format_output_model(const std::string& name, MeshFormat format, Mo
     return format_model(model, options, name);
 }
 
+void note_written(Session& session, const std::string& name, const WriteReport& report) {
+    for (const std::string& what : report.left_out)
+        session.note(fmt::format("{}: {}; it is left out", name, what));
+    if (report.lossless) return;
+    session.note(fmt::format("{}: {} vertices rounded to the floats of this format, by at most {}",
+                             name, report.rounded_vertices, number_text(report.largest_move)));
+}
+
 WriteReport write_output_mesh(Session& session, const std::string& name,
                               const FormattedMesh& formatted) {
     if (name == "-" && !formatted.files.empty())
@@ -280,13 +303,7 @@ WriteReport write_output_mesh(Session& session, const std::string& name,
     for (const SideFile& file : formatted.files)
         session.write_output((folder / file.name).string(), file.bytes);
     session.write_output(name, formatted.bytes);
-    for (const std::string& what : formatted.report.left_out)
-        session.note(fmt::format("{}: {}; it is left out", name, what));
-    if (!formatted.report.lossless) {
-        session.note(fmt::format(
-            "{}: {} vertices rounded to the floats of this format, by at most {}", name,
-            formatted.report.rounded_vertices, number_text(formatted.report.largest_move)));
-    }
+    note_written(session, name, formatted.report);
     return formatted.report;
 }
 

@@ -68,6 +68,8 @@ struct InputModel {
 /// The same as one mesh of all parts, which meets itself where they do.
 [[nodiscard]] PolygonMesh read_input(const Session& session, const std::string& name);
 [[nodiscard]] PolygonMesh one_mesh(Model&& model);
+/// The same with materials and properties, in a model of one part.
+[[nodiscard]] Model one_part(Model&& model);
 
 /// The same with what there is to say about the file; costs another pass over it.
 struct RemarkedMesh {
@@ -88,6 +90,9 @@ void check_standard_input(std::span<const std::string> names);
 [[nodiscard]] ValidationReport validate_input(const PolygonMesh& mesh, const std::string& name,
                                               const ValidateOptions& options);
 
+/// --properties.
+void add_properties_option(CLI::App& command, bool& properties);
+
 /// That `name` can hold properties in this format; checked before the work begins.
 /// \throw UnsupportedError, UsageError
 void check_holds_properties(const std::string& name, MeshFormat format);
@@ -104,6 +109,8 @@ void check_holds_properties(const std::string& name, MeshFormat format);
 /// all that they have.
 [[nodiscard]] FormattedMesh format_output_model(const std::string& name, MeshFormat format,
                                                 Model model, bool properties = false);
+/// Remarks what a format changed.
+void note_written(Session& session, const std::string& name, const WriteReport& report);
 /// Writes them, and remarks what the format changed.
 WriteReport write_output_mesh(Session& session, const std::string& name,
                               const FormattedMesh& formatted);

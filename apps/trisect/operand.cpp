@@ -97,23 +97,13 @@ ReadOperand read_exact_operand(const Session& session, const std::string& name,
     return out;
 }
 
-/// The same with one part of all.
-std::shared_ptr<Model> one_part_model(Model&& model) {
-    auto out = std::make_shared<Model>(std::move(model));
-    if (out->parts.size() == 1) return out;
-    ModelPart all = merged_part(*out);
-    out->parts.clear();
-    out->parts.push_back(std::move(all));
-    return out;
-}
-
 ReadOperand read_mesh_operand(const Session& session, const std::string& name,
                               const OperandOptions& options) {
     InputModel input = read_input_model(session, name, options.properties);
     const std::string unit = input.model.unit;
     const std::size_t parts = input.model.parts.size();
     std::shared_ptr<Model> model;
-    if (options.properties) model = one_part_model(std::move(input.model));
+    if (options.properties) model = std::make_shared<Model>(one_part(std::move(input.model)));
     const PolygonMesh own = model == nullptr ? one_mesh(std::move(input.model)) : PolygonMesh();
     const PolygonMesh& mesh = model == nullptr ? own : model->parts.front().mesh;
     ImportedMesh imported = import_input(session, mesh, name);

@@ -217,6 +217,7 @@ struct MendCommandOptions {
     std::string output;
     MendOptions what;
     std::uint64_t places = 100;  ///< listed entries of each kind
+    bool properties = false;     ///< keep properties of corners, materials and textures
 };
 
 struct ConvertOptions {

@@ -13,7 +13,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,8 +39,8 @@ struct SplitPart {
     Description description;
     std::optional<Certificate> certificate;
     std::optional<Mending> mending;
-    std::string bytes;
-    std::optional<WriteReport> written;  ///< of a mesh
+    std::string lossless;                    ///< bytes of an exact boundary or native file
+    std::optional<FormattedMesh> formatted;  ///< of a mesh
 };
 
 void check_request(const Session& session, const SplitOptions& options) {
@@ -48,8 +50,14 @@ void check_request(const Session& session, const SplitOptions& options) {
     if (options.outputs.size() != parts)
         throw UsageError(
             fmt::format("-o: {} parts, {} names of files", parts, options.outputs.size()));
-    for (const std::string& name : options.outputs)
-        if (!has_lossless_name(name)) static_cast<void>(output_format(session, name));
+    for (const std::string& name : options.outputs) {
+        if (!has_lossless_name(name)) {
+            const MeshFormat format = output_format(session, name);
+            if (options.operands.properties) check_holds_properties(name, format);
+        } else if (options.operands.properties) {
+            throw UsageError(name + ": --properties is for meshes");
+        }
+    }
     for (std::size_t i = 0; i < parts; ++i)
         for (std::size_t j = 0; j < i; ++j)
             check_outputs(session, {options.outputs[j], options.outputs[i]});
@@ -71,6 +79,40 @@ std::string lossless_bytes(const std::string& name, const Solid& solid) {
     return has_native_name(name) ? native_bytes(solid) : exact_text(solid.to_brep());
 }
 
+/// The triangles of a part, each of one face of an operand where properties are kept.
+struct PartMesh {
+    PolygonMesh mesh;
+    std::vector<FaceSource> sources;
+};
+
+PartMesh mesh_of(const SplitOptions& options, const Solid& solid, const ExactMesh& exact,
+                 MeshFormat format, std::optional<Certificate>& certificate) {
+    if (!options.operands.properties) {
+        PartMesh out{to_polygon_mesh(exact), exact.source};
+        if (options.certificate) certificate = certify_output(exact, out.mesh, format);
+        return out;
+    }
+    const Brep brep = solid.to_brep({.maximal_faces = false});
+    MeshMap map;
+    PartMesh out{to_polygon_mesh(brep, {}, &map), {}};
+    out.sources = std::move(map.source);
+    if (options.certificate) certificate = certify_output(brep, out.mesh, format);
+    return out;
+}
+
+FormattedMesh format_part(const SplitOptions& options, const std::vector<Operand>& operands,
+                          const std::string& file, const std::string& name, MeshFormat format,
+                          PartMesh part) {
+    if (options.operands.properties)
+        return format_output_model(
+            file, format,
+            property_model(std::move(part.mesh), std::move(part.sources), operands, name, format),
+            true);
+    if (!holds_models(format)) return format_output_mesh(file, format, part.mesh);
+    return format_output_model(file, format,
+                               operand_model(std::move(part.mesh), part.sources, operands, name));
+}
+
 /// \param name of the part, in formats that have names
 void finish(const Session& session, const SplitOptions& options,
             const std::vector<Operand>& operands, const std::string& file, const std::string& name,
@@ -80,23 +122,14 @@ void finish(const Session& session, const SplitOptions& options,
                                 {options.exact, session.options().json});
     part.description.lattice.lattice = part.solid.lattice();
     if (has_lossless_name(file)) {
-        part.bytes = lossless_bytes(file, part.solid);
+        part.lossless = lossless_bytes(file, part.solid);
         return;
     }
     const MeshFormat format = output_format(session, file);
-    PolygonMesh mesh = to_polygon_mesh(exact);
-    std::vector<FaceSource> sources = exact.source;
-    if (options.certificate) {
-        part.certificate = certify_output(exact, mesh, format);
-        part.mending = mend_output(mesh, sources, *part.certificate, format);
-    }
-    FormattedMesh formatted =
-        holds_models(format)
-            ? format_output_model(file, format,
-                                  operand_model(std::move(mesh), sources, operands, name))
-            : format_output_mesh(file, format, mesh);
-    part.bytes = std::move(formatted.bytes);
-    part.written = std::move(formatted.report);
+    PartMesh made = mesh_of(options, part.solid, exact, format, part.certificate);
+    if (part.certificate)
+        part.mending = mend_output(made.mesh, made.sources, *part.certificate, format);
+    part.formatted = format_part(options, operands, file, name, format, std::move(made));
 }
 
 Json part_json(const std::string& file, const SplitPart& part) {
@@ -118,20 +151,37 @@ std::string part_text(const std::string& file, const SplitPart& part) {
     return out;
 }
 
+/// Material libraries and pictures, which several parts may share.
+void add_side_files(const std::string& name, FormattedMesh& formatted,
+                    std::vector<OutputBytes>& files) {
+    if (name == "-" && !formatted.files.empty())
+        throw UsageError("pictures are files beside the output: not on the standard output");
+    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    for (SideFile& file : formatted.files) {
+        const std::string path = (folder / file.name).string();
+        const auto is_same = [&](const OutputBytes& other) { return other.path == path; };
+        if (std::none_of(files.begin(), files.end(), is_same))
+            files.push_back({path, std::move(file.bytes), OutputSafety::Renamed});
+    }
+}
+
 void write_all(Session& session, const SplitOptions& options, std::vector<SplitPart>& parts) {
     std::vector<OutputBytes> files;
-    for (std::size_t i = 0; i < parts.size(); ++i)
-        files.push_back(
-            {options.outputs[i], std::move(parts[i].bytes),
-             has_native_name(options.outputs[i]) ? OutputSafety::Flushed : OutputSafety::Renamed});
-    session.write_outputs(files);
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (!parts[i].written || parts[i].written->lossless) continue;
-        session.note(
-            fmt::format("{}: {} vertices rounded to the floats of this format, by at most {}",
-                        options.outputs[i], parts[i].written->rounded_vertices,
-                        number_text(parts[i].written->largest_move)));
+        const std::string& name = options.outputs[i];
+        if (!parts[i].formatted) {
+            files.push_back(
+                {name, std::move(parts[i].lossless),
+                 has_native_name(name) ? OutputSafety::Flushed : OutputSafety::Renamed});
+            continue;
+        }
+        add_side_files(name, *parts[i].formatted, files);
+        files.push_back({name, std::move(parts[i].formatted->bytes), OutputSafety::Renamed});
     }
+    session.write_outputs(files);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].formatted)
+            note_written(session, options.outputs[i], parts[i].formatted->report);
 }
 
 }  // namespace
@@ -170,6 +220,7 @@ void add_split_command(CLI::App& app, SplitOptions& options) {
     command->add_flag("--exact", options.exact, "also the volumes as fractions");
     command->add_flag("!--no-certificate", options.certificate,
                       "do not check the rounded results for self-intersection");
+    add_properties_option(*command, options.operands.properties);
     add_operand_options(*command, options.operands);
 }
 

@@ -38,7 +38,7 @@ Weight dot(const std::array<Weight, 3>& a, const std::array<Weight, 3>& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The face of an operand that a triangle lies in.
+/// A face of an operand, in which one of the result lies.
 class SourceFace {
 public:
     SourceFace(const PropertyOperand& operand, std::uint32_t face)
@@ -110,7 +110,7 @@ public:
 
     void write() {
         out_.properties.values.reserve(out_.mesh.corners.size() * out_.properties.width);
-        for (std::size_t t = 0; t < out_.mesh.face_count(); ++t) triangle(t);
+        for (std::size_t f = 0; f < out_.mesh.face_count(); ++f) face(f);
     }
 
 private:
@@ -155,30 +155,28 @@ private:
             throw UsageError("to_property_mesh: an operand is named twice");
     }
 
-    void triangle(std::size_t t) {
-        const auto it = operands_.find(out_.source[t].operand);
-        const bool is_known =
-            it != operands_.end() && out_.source[t].face < it->second.mesh->face_count();
-        if (!is_known) {
+    void face(std::size_t f) {
+        const FaceSource source = out_.source[f];
+        const auto corners = out_.mesh.face(f);
+        const auto it = operands_.find(source.operand);
+        if (it == operands_.end() || source.face >= it->second.mesh->face_count()) {
             out_.is_turned_over.push_back(false);
-            out_.properties.values.resize(out_.properties.values.size() + 3 * out_.properties.width,
-                                          missing_);
+            const std::size_t more = corners.size() * out_.properties.width;
+            out_.properties.values.resize(out_.properties.values.size() + more, missing_);
             return;
         }
-        const SourceFace face(it->second, out_.source[t].face);
-        const auto corners = out_.mesh.face(t);
-        const auto& points = out_.mesh.points;
-        const auto normal = normal_of(points[corners[0]], points[corners[1]], points[corners[2]]);
-        out_.is_turned_over.push_back(dot(normal, face.normal()) < 0);
-        for (const std::uint32_t c : corners) corner(it->second, face, points[c]);
-        if (out_.is_turned_over.back()) turn_normals();
+        const SourceFace from(it->second, source.face);
+        const SourceFace own({0, &out_.mesh, nullptr}, static_cast<std::uint32_t>(f));
+        out_.is_turned_over.push_back(dot(own.normal(), from.normal()) < 0);
+        for (const std::uint32_t c : corners) corner(it->second, from, out_.mesh.points[c]);
+        if (out_.is_turned_over.back()) turn_normals(corners.size());
     }
 
-    /// Of the last three corners.
-    void turn_normals() {
+    /// Of so many last corners.
+    void turn_normals(std::size_t corners) {
         const std::size_t width = out_.properties.width;
         const std::size_t end = out_.properties.values.size();
-        for (std::size_t k = 1; k <= 3; ++k)
+        for (std::size_t k = 1; k <= corners; ++k)
             for (const std::size_t column : normals_) {
                 double& x = out_.properties.values[end - k * width + column];
                 x = -x;
@@ -223,11 +221,11 @@ private:
 
 }  // namespace
 
-PropertyMesh with_properties(PolygonMesh triangles, std::vector<FaceSource> source,
+PropertyMesh with_properties(PolygonMesh faces, std::vector<FaceSource> source,
                              std::span<const PropertyOperand> operands) {
     PropertyMesh out;
     PropertyWriter writer(operands, out);
-    out.mesh = std::move(triangles);
+    out.mesh = std::move(faces);
     out.source = std::move(source);
     writer.write();
     return out;
