@@ -90,7 +90,7 @@ py::object under(const Solid& solid, const Map& map, bool report) {
     return py::make_tuple(std::move(result), rounding);
 }
 
-void bind_maps(py::class_<Solid>& c) {
+void bind_motions(py::class_<Solid>& c) {
     c.def(
         "translate",
         [](const Solid& s, const py::object& by) {
@@ -116,6 +116,9 @@ axis : {'x', 'y', 'z'} or array_like, shape (3,)
 degrees : float
     Counter-clockwise seen from the tip of the axis.
 )");
+}
+
+void bind_scalings(py::class_<Solid>& c) {
     c.def(
         "scale",
         [](const Solid& s, const py::object& factor) {
@@ -168,6 +171,9 @@ size : array_like, shape (3,)
 follow : bool or tuple of three
     Axes of size 0 that take the factor of the axis with the largest new size.
 )");
+}
+
+void bind_transform(py::class_<Solid>& c) {
     c.def(
         "transform",
         [](const Solid& s, const py::object& map, bool report) {
@@ -276,7 +282,9 @@ plane : array_like, shape (4,)
 void bind_transforms(py::module_& m) {
     bind_rounding(m);
     py::class_<Solid> c = solid_class(m);
-    bind_maps(c);
+    bind_motions(c);
+    bind_scalings(c);
+    bind_transform(c);
     bind_split(c);
 }
 
