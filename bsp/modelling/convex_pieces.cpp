@@ -10,9 +10,12 @@
 #include <set>
 #include <utility>
 
+#include <trisect/brep/import_mesh.h>
 #include <trisect/brep/measure.h>
 #include <trisect/brep/primitives/hull.h>
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/modelling/pieces/convex_cover.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/error.h>
 
@@ -103,33 +106,52 @@ std::vector<Point3d> representatives_of(const PolygonMesh& mesh) {
 
 ConvexPieces whole(std::vector<Point3d> corners) {
     ConvexPieces out;
-    out.is_convex = true;
+    out.is_convex = out.fills = true;
     out.representatives = {corners.front()};
     out.pieces.push_back(std::move(corners));
     return out;
 }
 
-ConvexPieces triangles_of(const PolygonMesh& mesh) {
-    ConvexPieces out;
-    out.representatives = representatives_of(mesh);
+void add_triangles(ConvexPieces& out, const PolygonMesh& mesh) {
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         auto& piece = out.pieces.emplace_back();
         for (const std::uint32_t v : mesh.face(f)) piece.push_back(mesh.points[v]);
     }
+}
+
+Point3d point_of(const LatticeMesh& mesh, std::uint32_t v) {
+    const auto [x, y, z] = mesh.points[v].doubles();
+    return {mesh.lattice.to_double(x), mesh.lattice.to_double(y), mesh.lattice.to_double(z)};
+}
+
+ConvexPieces parts_of(const PolygonMesh& mesh, CoverSide side) {
+    ConvexPieces out;
+    out.representatives = representatives_of(mesh);
+    const ImportedMesh imported = import_mesh(mesh);
+    if (!imported.report.lattice.lossless || !is_embedded(imported.mesh)) {
+        add_triangles(out, mesh);
+        return out;
+    }
+    const ConvexCover cover = convex_cover(imported.mesh, side);
+    for (const auto& body : cover.bodies) {
+        auto& piece = out.pieces.emplace_back();
+        for (const std::uint32_t v : body) piece.push_back(point_of(imported.mesh, v));
+    }
+    out.fills = cover.fills;
     return out;
 }
 
 }  // namespace
 
 // A mesh that meets itself is resolved by evaluation: its own faces have walls inside the set.
-ConvexPieces pieces_of_boundary(const Solid& solid) {
-    return triangles_of(evaluate(solid).to_mesh());
+ConvexPieces pieces_around(const Solid& solid) {
+    return parts_of(evaluate(solid).to_mesh(), CoverSide::Outside);
 }
 
 ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options) {
     const PolygonMesh mesh = solid.to_mesh();
     if (auto corners = convex_corners(solid, mesh, options)) return whole(std::move(*corners));
-    return triangles_of(mesh);
+    return parts_of(mesh, CoverSide::Inside);
 }
 
 }  // namespace trisect::detail

@@ -12,15 +12,18 @@
 namespace trisect::detail {
 
 struct ConvexPieces {
-    /// The solid itself, if it is convex; else the pieces of its boundary.
+    /// The solid itself, if it is convex; else convex parts of the side, as far as the boundary is
+    /// embedded, which hold all of the boundary, or its triangles.
     std::vector<std::vector<Point3d>> pieces;
     bool is_convex = false;
+    /// Whether the pieces are all of the solid.
+    bool fills = false;
     /// A point of each connected part of the boundary.
     std::vector<Point3d> representatives;
 };
 
-/// Triangles of the boundary, also of a convex solid.
-[[nodiscard]] ConvexPieces pieces_of_boundary(const Solid& solid);
+/// Parts that are not within the solid, also of a convex one.
+[[nodiscard]] ConvexPieces pieces_around(const Solid& solid);
 [[nodiscard]] ConvexPieces pieces_of_solid(const Solid& solid, const MinkowskiOptions& options);
 
 }  // namespace trisect::detail

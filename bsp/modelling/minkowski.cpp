@@ -6,6 +6,11 @@
 // point of that part and a point of the other solid. So the sum is the union of the sums of all
 // pairs of triangles, and of B moved to one point of each part of A's boundary, and the other way
 // round. Where B is convex, sums of a triangle and B take the place of the first two.
+//
+// Any sets in A that hold all of its boundary serve in place of the triangles: convex bodies
+// between its corners (pieces/convex_cover.h), of which there are fewer. Where they are all of A,
+// nothing needs to be moved to the parts of B's boundary. For a difference the bodies are outside
+// of A.
 #include <trisect/bsp/modelling/minkowski.h>
 
 #include <algorithm>
@@ -69,8 +74,8 @@ Solid sum_of(const Solid& a, const ConvexPieces& in_a, const Solid& b, const Con
              const MinkowskiOptions& options) {
     std::vector<Solid> terms = sums_of_pieces(in_a, in_b, options);
     if (in_a.is_convex && in_b.is_convex) return terms.empty() ? Solid() : terms[0];
-    if (!in_a.is_convex) add_moved(terms, a, in_b.representatives);
-    if (!in_b.is_convex) add_moved(terms, b, in_a.representatives);
+    if (!in_a.fills) add_moved(terms, a, in_b.representatives);
+    if (!in_b.fills) add_moved(terms, b, in_a.representatives);
     return evaluate(Expression::any_of(terms), options.evaluate);
 }
 
@@ -114,7 +119,7 @@ Solid minkowski_sum_of_regions(const Solid& a, const Solid& b, const MinkowskiOp
 Solid minkowski_difference(const Solid& a, const Solid& b, const MinkowskiOptions& options) {
     if (a.is_empty() || b.is_empty()) return a;
     const Solid turned = turned_about(b);
-    const ConvexPieces in_a = detail::pieces_of_boundary(a);
+    const ConvexPieces in_a = detail::pieces_around(a);
     const ConvexPieces in_b = detail::pieces_of_solid(turned, options);
     std::vector<Solid> swept = sums_of_pieces(in_a, in_b, options);
     if (!in_b.is_convex) add_moved(swept, turned, in_a.representatives);

@@ -26,11 +26,11 @@ struct MinkowskiOptions {
 
 /// All sums of a point of `a` and a point of `b`.
 ///
-/// Of convex solids the hull of the sums of corners; else the union of convex pieces: sums of the
-/// triangles of `a` with `b`, or with the triangles of `b`. Exact where corners, and sums of a
-/// corner of each, are doubles; others are rounded first, once each.
-/// \throw UnsupportedError for an unbounded set, LimitError beyond the pieces, what evaluate()
-/// throws
+/// Of convex solids the hull of the sums of corners; else the union of convex pieces: sums of
+/// convex bodies between corners of `a`, which hold its boundary, with `b`, or with those of `b`.
+/// Exact where corners, and sums of a corner of each, are doubles; others are rounded first, once
+/// each. \throw UnsupportedError for an unbounded set, LimitError beyond the pieces, what
+/// evaluate() throws
 [[nodiscard]] Solid minkowski_sum(const Solid& a, const Solid& b,
                                   const MinkowskiOptions& options = {});
 
