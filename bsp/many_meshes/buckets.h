@@ -26,12 +26,12 @@ public:
     }
     /// To be called when all were added.
     void sort(std::size_t limit) {
-        first_.assign(limit + 1, 0);
-        for (const std::uint32_t k : keys_) ++first_[k + 1];
+        // A number's end moves on to where it ends, which is where the next one begins.
+        first_.assign(limit + 2, 0);
+        for (const std::uint32_t k : keys_) ++first_[k + 2];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
         items_.resize(added_.size());
-        next_.assign(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < keys_.size(); ++i) items_[next_[keys_[i]]++] = added_[i];
+        for (std::size_t i = 0; i < keys_.size(); ++i) items_[first_[keys_[i] + 1]++] = added_[i];
     }
     [[nodiscard]] std::span<Item> of(std::uint32_t key) {
         return std::span(items_).subspan(first_[key], first_[key + 1] - first_[key]);
@@ -42,7 +42,6 @@ private:
     std::vector<std::uint32_t> keys_;
     std::vector<Item> added_;
     std::vector<std::uint32_t> first_;
-    std::vector<std::uint32_t> next_;
     std::vector<Item> items_;
 };
 

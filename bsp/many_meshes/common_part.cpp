@@ -54,11 +54,16 @@ public:
             cuts_[i].sort(solids_[i]->facets.size());
             if (!find_sides(i)) return false;
         }
-        out_.open_far_out = first.open_far_out && second.open_far_out;
-        reserve();
-        take_vertices(first, second);
-        keep_parts(0);
+        keeps_numbers_ = keeps_most_vertices();
+        if (keeps_numbers_ && 2 * first.unused_edges <= first.edges.size()) {
+            stay_in(first);
+        } else {
+            reserve();
+            if (keeps_numbers_) take_vertices(first);
+            keep_parts(0);
+        }
         keep_parts(1);
+        out_.open_far_out = first.open_far_out && second.open_far_out;
         if (!lines_->empty()) out_.lines.push_back(std::move(lines_));
         return true;
     }
@@ -92,7 +97,14 @@ private:
     void find_near(std::size_t solid);
     [[nodiscard]] bool find_cuts(EvaluateStats& stats);
     void reserve();
-    void take_vertices(OutlinedSolid& first, OutlinedSolid& second);
+    [[nodiscard]] bool keeps_most_vertices() const;
+    void take_vertices(OutlinedSolid& first);
+    void add_vertices_of_second();
+    void stay_in(OutlinedSolid& first);
+    void keep_where_they_are();
+    template <class Item>
+    static void make_room(std::vector<Item>& items, std::size_t more,
+                          SpareMemory<std::vector<Item>>& spare);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
                  const FacetCrossing& line);
     [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
@@ -119,7 +131,8 @@ private:
     [[nodiscard]] bool is_all_open(std::size_t solid, const OutlinedSolid::Facet& f) const;
     void keep_all(std::size_t solid, std::uint32_t place);
     void keep_cut(std::size_t solid, std::uint32_t place);
-    void add_facet(const OutlinedSolid::Facet& f, std::uint32_t first);
+    [[nodiscard]] std::uint32_t add_edges_of_cut(std::size_t solid, std::uint32_t place);
+    [[nodiscard]] OutlineBox box_of_edges(std::uint32_t first) const;
     [[nodiscard]] std::uint32_t kept_vertex(std::size_t solid, std::uint32_t v);
     [[nodiscard]] std::uint32_t kept_made(std::uint32_t v);
     // Of a vertex of a facet that is near.
@@ -127,14 +140,13 @@ private:
         return sides_[solid][v] == Side::Open;
     }
     // What is far out of the other solid.
-    [[nodiscard]] bool is_far_open(std::size_t solid) const {
-        return solids_[1 - solid]->open_far_out;
-    }
+    [[nodiscard]] bool is_far_open(std::size_t solid) const { return open_far_out_[1 - solid]; }
 
     const ManyMeshes& meshes_;
     SpecialPosition special_;
     ShiftedPoints exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
+    std::array<bool, 2> open_far_out_{};
     CrossedFacetsFinder finder_;
     CommonSegments segments_;
     std::unique_ptr<OutlinedSolid::Lines> lines_;
@@ -161,6 +173,7 @@ private:
 
 void CommonPart::Steps::start(const OutlinedSolid& first, const OutlinedSolid& second) {
     solids_ = {&first, &second};
+    open_far_out_ = {first.open_far_out, second.open_far_out};
     segments_.start(first, second);
     made_.clear();
     made_by_name_.clear();
@@ -228,13 +241,13 @@ std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
     v.at = end.at;
     const std::uint32_t own = solids_[owner]->facets[places[owner]].number;
     const std::uint32_t other = solids_[1 - owner]->facets[places[1 - owner]].number;
-    if (e.line == nullptr) {
+    if (const FacetCrossing* line = e.origin.line(); line == nullptr) {
         v.kind = OutlineVertex::Kind::Pierce;
-        v.which = e.own;
+        v.which = e.origin.own();
         v.facets = {own, other, 0};
     } else {
         v.kind = OutlineVertex::Kind::Meeting;
-        v.facets = {e.line->facets[0], e.line->facets[1], other};
+        v.facets = {line->facets[0], line->facets[1], other};
     }
     return static_cast<std::uint32_t>(number);
 }
@@ -268,8 +281,10 @@ bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, std::uint32_
 // line where that has what is open on its left (add_cut).
 int CommonPart::Steps::order_of_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
                                       const Stop& a, const Stop& b) const {
-    if (edge.line == nullptr) return exact_.order_on_edge(facet, edge.own, a.cutter, b.cutter);
-    const std::array<std::uint32_t, 2>& line = edge.line->facets;
+    const FacetCrossing* crossing = edge.origin.line();
+    if (crossing == nullptr)
+        return exact_.order_on_edge(facet, edge.origin.own(), a.cutter, b.cutter);
+    const std::array<std::uint32_t, 2>& line = crossing->facets;
     const std::size_t own = line[0] == facet ? 0 : 1;
     const bool open_below =
         meshes_.is_open_below(meshes_.slot_of(line[1 - own]), meshes_.slot_of(facet));
@@ -387,28 +402,95 @@ void CommonPart::Steps::reserve() {
         both([](const OutlinedSolid& s) { return s.vertices.size(); }) + made_.size());
 }
 
-// All, where most are kept, and few before were not.
-void CommonPart::Steps::take_vertices(OutlinedSolid& first, OutlinedSolid& second) {
-    const std::size_t facets = first.facets.size() + second.facets.size();
+// Whether vertices keep their numbers: where most are kept, and few before were not.
+bool CommonPart::Steps::keeps_most_vertices() const {
+    std::size_t facets = 0;
+    std::size_t vertices = 0;
+    std::size_t edges = 0;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < 2; ++i) {
         const OutlinedSolid& s = *solids_[i];
+        facets += s.facets.size();
+        vertices += s.vertices.size();
+        edges += s.edges.size() - s.unused_edges;
         if (is_far_open(i)) kept += s.facets.size() - near_[i].size();
         for (const std::uint32_t f : near_[i])
             kept += is_open(i, s.edges[s.facets[f].first].from) ? 1 : 0;
     }
-    const std::size_t edges = first.edges.size() + second.edges.size();
-    keeps_numbers_ =
-        2 * kept > facets && 3 * (first.vertices.size() + second.vertices.size()) <= 2 * edges;
-    if (!keeps_numbers_) return;
+    return 2 * kept > facets && 3 * vertices <= 2 * edges;
+}
+
+// Into whichever has room for all.
+void CommonPart::Steps::take_vertices(OutlinedSolid& first) {
+    const std::size_t all = first.vertices.size() + solids_[1]->vertices.size() + made_.size();
     added_ = {0, static_cast<std::uint32_t>(first.vertices.size())};
-    // Into whichever has room for all.
-    const std::size_t all = first.vertices.size() + second.vertices.size() + made_.size();
     if (first.vertices.capacity() >= all)
         std::swap(out_.vertices, first.vertices);
     else
         out_.vertices.assign(first.vertices.begin(), first.vertices.end());
-    out_.vertices.insert(out_.vertices.end(), second.vertices.begin(), second.vertices.end());
+    add_vertices_of_second();
+}
+
+void CommonPart::Steps::add_vertices_of_second() {
+    const std::vector<OutlineVertex>& more = solids_[1]->vertices;
+    out_.vertices.insert(out_.vertices.end(), more.begin(), more.end());
+}
+
+template <class Item>
+void CommonPart::Steps::make_room(std::vector<Item>& items, std::size_t more,
+                                  SpareMemory<std::vector<Item>>& spare) {
+    const std::size_t all = items.size() + more;
+    if (items.capacity() >= all) return;
+    std::vector<Item> larger = spare.take(all + all / 4);
+    larger.assign(items.begin(), items.end());
+    std::swap(items, larger);
+    spare.give_back(std::move(larger));
+}
+
+// What is kept of the first solid stays where it is, the second one's is added.
+void CommonPart::Steps::stay_in(OutlinedSolid& first) {
+    added_ = {0, static_cast<std::uint32_t>(first.vertices.size())};
+    out_ = std::move(first);
+    solids_[0] = &out_;
+    const OutlinedSolid& second = *solids_[1];
+    make_room(out_.facets, second.facets.size(), spare_facets_);
+    make_room(out_.boxes, second.facets.size(), spare_boxes_);
+    make_room(out_.edges, second.edges.size() + 4 * made_.size(), spare_edges_);
+    make_room(out_.vertices, second.vertices.size() + made_.size(), spare_vertices_);
+    add_vertices_of_second();
+    keep_where_they_are();
+}
+
+// Facets move to the front. What is cut gets edges behind all others.
+void CommonPart::Steps::keep_where_they_are() {
+    kept_made_.resize(made_.size(), none);
+    out_.box = OutlineBox::none();
+    std::uint32_t kept = 0;
+    auto near = near_[0].begin();
+    for (std::uint32_t f = 0; f < out_.facets.size(); ++f) {
+        OutlinedSolid::Facet facet = out_.facets[f];
+        const bool is_near = near != near_[0].end() && *near == f;
+        if (is_near) ++near;
+        const bool untouched = !is_near || is_untouched(0, f);
+        if (!untouched || (is_near && !is_all_open(0, facet))) {
+            out_.unused_edges += facet.count;
+            if (untouched && facet.whole) continue;
+            facet.first = add_edges_of_cut(0, f);
+            facet.count = static_cast<std::uint32_t>(out_.edges.size()) - facet.first;
+            facet.whole = false;
+            if (facet.count == 0) continue;
+            out_.boxes[f] = box_of_edges(facet.first);
+        } else if (!is_near && !is_far_open(0)) {
+            out_.unused_edges += facet.count;
+            continue;
+        }
+        out_.facets[kept] = facet;
+        out_.boxes[kept] = out_.boxes[f];
+        out_.box.add(out_.boxes[kept]);
+        ++kept;
+    }
+    out_.facets.resize(kept);
+    out_.boxes.resize(kept);
 }
 
 std::uint32_t CommonPart::Steps::kept_vertex(std::size_t solid, std::uint32_t v) {
@@ -428,14 +510,12 @@ std::uint32_t CommonPart::Steps::kept_made(std::uint32_t v) {
     return number;
 }
 
-void CommonPart::Steps::add_facet(const OutlinedSolid::Facet& f, std::uint32_t first) {
-    const auto count = static_cast<std::uint32_t>(out_.edges.size()) - first;
-    if (count == 0) return;
-    out_.facets.push_back({f.number, f.slot, first, count, false});
-    OutlineBox& box = out_.boxes.emplace_back(OutlineBox::none());
-    for (std::uint32_t e = first; e < first + count; ++e)
+// Those from an edge on, which are one facet's.
+OutlineBox CommonPart::Steps::box_of_edges(std::uint32_t first) const {
+    OutlineBox box = OutlineBox::none();
+    for (std::size_t e = first; e < out_.edges.size(); ++e)
         box.add(out_.vertices[out_.edges[e].from].at);
-    out_.box.add(box);
+    return box;
 }
 
 // A facet, or what there is of it.
@@ -446,11 +526,10 @@ void CommonPart::Steps::keep_all(std::size_t solid, std::uint32_t place) {
     if (keeps_numbers_) {
         const std::uint32_t added = added_[solid];
         for (const OutlinedSolid::Edge& e : s.edges_of(f))
-            out_.edges.push_back({added + e.from, added + e.to, e.line, e.own});
+            out_.edges.push_back({added + e.from, added + e.to, e.origin});
     } else {
         for (const OutlinedSolid::Edge& e : s.edges_of(f))
-            out_.edges.push_back(
-                {kept_vertex(solid, e.from), kept_vertex(solid, e.to), e.line, e.own});
+            out_.edges.push_back({kept_vertex(solid, e.from), kept_vertex(solid, e.to), e.origin});
     }
     out_.facets.push_back({f.number, f.slot, first, f.count, f.whole});
     out_.boxes.push_back(s.boxes[place]);
@@ -473,24 +552,35 @@ bool CommonPart::Steps::is_all_open(std::size_t solid, const OutlinedSolid::Face
 }
 
 void CommonPart::Steps::keep_cut(std::size_t solid, std::uint32_t place) {
+    const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
+    const std::uint32_t first = add_edges_of_cut(solid, place);
+    const auto count = static_cast<std::uint32_t>(out_.edges.size()) - first;
+    if (count == 0) return;
+    out_.facets.push_back({f.number, f.slot, first, count, false});
+    out_.boxes.push_back(box_of_edges(first));
+    out_.box.add(out_.boxes.back());
+}
+
+// The first of them. The solid may be the one that they are added to.
+std::uint32_t CommonPart::Steps::add_edges_of_cut(std::size_t solid, std::uint32_t place) {
     const OutlinedSolid& s = *solids_[solid];
-    const OutlinedSolid::Facet& f = s.facets[place];
+    const OutlinedSolid::Facet f = s.facets[place];
     const auto first = static_cast<std::uint32_t>(out_.edges.size());
     for (std::uint32_t e = f.first; e < f.first + f.count; ++e) {
-        const OutlinedSolid::Edge& edge = s.edges[e];
+        const OutlinedSolid::Edge edge = s.edges[e];
         bool open = is_open(solid, edge.from);
         std::uint32_t at = open ? kept_vertex(solid, edge.from) : none;
         for (const Stop& stop : stops_[solid].of(e)) {
             const std::uint32_t next = kept_made(stop.vertex);
-            if (open) out_.edges.push_back({at, next, edge.line, edge.own});
+            if (open) out_.edges.push_back({at, next, edge.origin});
             at = next;
             open = stop.opens;
         }
-        if (open) out_.edges.push_back({at, kept_vertex(solid, edge.to), edge.line, edge.own});
+        if (open) out_.edges.push_back({at, kept_vertex(solid, edge.to), edge.origin});
     }
     for (const Cut& c : cuts_[solid].of(place))
-        out_.edges.push_back({kept_made(c.from), kept_made(c.to), c.line, -1});
-    add_facet(f, first);
+        out_.edges.push_back({kept_made(c.from), kept_made(c.to), EdgeOrigin(c.line)});
+    return first;
 }
 
 void CommonPart::Steps::keep_parts(std::size_t solid) {

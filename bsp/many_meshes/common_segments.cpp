@@ -21,22 +21,27 @@
 
 namespace trisect::detail {
 
+namespace {
+
+constexpr std::uint32_t no_plane = ~std::uint32_t{0};
+
+}  // namespace
+
 void CommonSegments::start(const OutlinedSolid& first, const OutlinedSolid& second) {
     solids_ = {&first, &second};
     sides_.clear();
-    for (std::size_t i = 0; i < 2; ++i) {
-        planes_[i].resize(solids_[i]->facets.size());
-        for (FilteredPlane& p : planes_[i]) p.bound = -1;
-    }
+    planes_.clear();
+    for (std::size_t i = 0; i < 2; ++i) plane_of_[i].assign(solids_[i]->facets.size(), no_plane);
 }
 
-const FilteredPlane& CommonSegments::plane(std::size_t solid, std::uint32_t place) {
-    FilteredPlane& p = planes_[solid][place];
-    if (p.bound >= 0) return p;
+FilteredPlane CommonSegments::plane(std::size_t solid, std::uint32_t place) {
+    std::uint32_t& number = plane_of_[solid][place];
+    if (number != no_plane) return planes_[number];
+    number = static_cast<std::uint32_t>(planes_.size());
     const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
     const std::uint32_t facet = f.number - meshes_.operands->operands[f.slot].first;
-    p = FilteredFacets::plane_of(meshes_.corners(f.slot, facet), meshes_.extent);
-    return p;
+    planes_.push_back(FilteredFacets::plane_of(meshes_.corners(f.slot, facet), meshes_.extent));
+    return planes_.back();
 }
 
 bool CommonSegments::find(const std::array<std::uint32_t, 2>& places,
@@ -123,8 +128,9 @@ bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet
         p.of_second = solid == 1;
         p.enters = (to > 0) == (solid == 0);
         p.edge = e;
-        if (!(edge.line == nullptr ? place_own(p, edge.own)
-                                   : place_on_line(p, facet, *edge.line, other)))
+        const FacetCrossing* line = edge.origin.line();
+        if (!(line == nullptr ? place_own(p, edge.origin.own())
+                              : place_on_line(p, facet, *line, other)))
             return false;
         (p.where == Passage::Where::Inside ? inside_ : passages_).push_back(p);
     }

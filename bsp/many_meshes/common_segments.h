@@ -41,7 +41,7 @@ public:
     /// In their order along the crossing.
     [[nodiscard]] std::span<const CommonSegment> segments() const { return segments_; }
     /// Of one of the solids.
-    [[nodiscard]] const FilteredPlane& plane(std::size_t solid, std::uint32_t place);
+    [[nodiscard]] FilteredPlane plane(std::size_t solid, std::uint32_t place);
 
 private:
     /// Where an edge of a part meets the line of the crossing.
@@ -76,7 +76,8 @@ private:
     const ManyMeshes& meshes_;
     const ShiftedPoints& exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
-    std::array<std::vector<FilteredPlane>, 2> planes_;  // by place, where they were asked for
+    std::array<std::vector<std::uint32_t>, 2> plane_of_;  // by place, where one was wanted
+    std::vector<FilteredPlane> planes_;
     FlatMap sides_;  // of vertices that doubles leave open, and whether moves decided them
     std::vector<CommonSegment> segments_;
     // Of one crossing:

@@ -277,11 +277,12 @@ public:
 
     // What all operands leave open together.
     [[nodiscard]] std::optional<OutlinedSolid> of_all(EvaluateStats& stats) const {
-        if (meshes_.nested != nullptr) return of_node(NestedFormula::root, stats);
+        if (meshes_.nested != nullptr) return of_node(NestedFormula::root, 0, stats);
         if (!first_is_last_) return of_rest(stats);
-        if (order_.empty() && clusters_.empty()) return of_operand(0);
+        if (order_.empty() && clusters_.empty()) return of_operand(0, 0);
+        const std::size_t room = meshes_.facet_count();
         return common_of(
-            meshes_.facet_count(), stats, [&](EvaluateStats&) { return of_operand(0); },
+            room, stats, [&](EvaluateStats&) { return of_operand(0, room); },
             [&](EvaluateStats& s) { return of_rest(s); });
     }
 
@@ -335,24 +336,30 @@ private:
         return is_open_far_out(*solids_[slot], meshes_.operands->operands[slot]);
     }
 
-    [[nodiscard]] std::optional<OutlinedSolid> of_operand(std::uint32_t slot) const {
-        return whole_operand(meshes_, slot, is_open_far(slot));
+    // `room`: for so many facets, also in what follows. The first operand of all has room for all
+    // that is joined to it.
+    [[nodiscard]] OutlinedSolid of_operand(std::uint32_t slot, std::size_t room) const {
+        return whole_operand(meshes_, slot, is_open_far(slot), room);
     }
     [[nodiscard]] std::optional<OutlinedSolid> of_rest(EvaluateStats& stats) const {
-        if (clusters_.empty()) return of(order_, stats);
+        if (clusters_.empty()) return of(order_, 0, stats);
         if (order_.empty()) return of_clusters(clusters_, stats);
+        const std::size_t room = meshes_.facet_count();
         return common_of(
-            meshes_.facet_count(), stats, [&](EvaluateStats& s) { return of(order_, s); },
+            room, stats, [&](EvaluateStats& s) { return of(order_, room, s); },
             [&](EvaluateStats& s) { return of_clusters(clusters_, s); });
     }
     // What operands leave open together.
-    [[nodiscard]] std::optional<OutlinedSolid> of(Slots slots, EvaluateStats& stats) const {
-        if (slots.size() == 1) return of_operand(slots[0]);
+    [[nodiscard]] std::optional<OutlinedSolid> of(Slots slots, std::size_t room,
+                                                  EvaluateStats& stats) const {
+        if (slots.size() == 1) return of_operand(slots[0], room);
         const Slots first = slots.first(slots.size() / 2);
         const Slots second = slots.subspan(slots.size() / 2);
+        const std::size_t facets = facets_of(slots);
+        room = std::max(room, facets);
         return common_of(
-            facets_of(slots), stats, [&](EvaluateStats& s) { return of(first, s); },
-            [&](EvaluateStats& s) { return of(second, s); });
+            facets, stats, [&](EvaluateStats& s) { return of(first, room, s); },
+            [&](EvaluateStats& s) { return of(second, 0, s); });
     }
     [[nodiscard]] std::optional<OutlinedSolid> of_clusters(Clusters clusters,
                                                            EvaluateStats& stats) const {
@@ -371,36 +378,36 @@ private:
         OutlinedSolid out;
         out.open_far_out = true;
         for (const auto& slots : clusters) {
-            std::optional<OutlinedSolid> solid = of(slots, stats);
+            std::optional<OutlinedSolid> solid = of(slots, out.facets.empty() ? facets : 0, stats);
             if (!solid) return std::nullopt;
             add_apart(*std::move(solid), out);
         }
         return out;
     }
-    [[nodiscard]] std::optional<OutlinedSolid> of_node(std::uint32_t number,
+    [[nodiscard]] std::optional<OutlinedSolid> of_node(std::uint32_t number, std::size_t room,
                                                        EvaluateStats& stats) const {
         const NestedFormula::Node& node = meshes_.nested->node(number);
-        if (node.slot >= 0) {
-            return of_operand(static_cast<std::uint32_t>(node.slot));
-        }
-        std::optional<OutlinedSolid> out = of_terms(node, 0, node.terms.size(), stats);
+        if (node.slot >= 0) return of_operand(static_cast<std::uint32_t>(node.slot), room);
+        std::optional<OutlinedSolid> out = of_terms(node, 0, node.terms.size(), room, stats);
         if (out && node.unites) out->open_far_out = !out->open_far_out;
         return out;
     }
     // Of a union what is complement to all its terms.
     [[nodiscard]] std::optional<OutlinedSolid> of_terms(const NestedFormula::Node& node,
                                                         std::size_t first, std::size_t end,
+                                                        std::size_t room,
                                                         EvaluateStats& stats) const {
         if (first + 1 == end) {
-            std::optional<OutlinedSolid> out = of_node(node.terms[first], stats);
+            std::optional<OutlinedSolid> out = of_node(node.terms[first], room, stats);
             if (out && node.unites) out->open_far_out = !out->open_far_out;
             return out;
         }
         const std::size_t middle = first + (end - first) / 2;
+        const std::size_t facets = facets_of_terms(node, first, end);
+        room = std::max(room, facets);
         return common_of(
-            facets_of_terms(node, first, end), stats,
-            [&](EvaluateStats& s) { return of_terms(node, first, middle, s); },
-            [&](EvaluateStats& s) { return of_terms(node, middle, end, s); });
+            facets, stats, [&](EvaluateStats& s) { return of_terms(node, first, middle, room, s); },
+            [&](EvaluateStats& s) { return of_terms(node, middle, end, 0, s); });
     }
 
     using Pair = std::pair<std::optional<OutlinedSolid>, std::optional<OutlinedSolid>>;
@@ -516,8 +523,9 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
         if (is_special[f.number] != 0) continue;
         const auto edges = common.solid.edges_of(f);
         if (std::ranges::any_of(edges, [&](const OutlinedSolid::Edge& e) {
-                return e.line != nullptr &&
-                       (is_special[e.line->facets[0]] != 0 || is_special[e.line->facets[1]] != 0);
+                const FacetCrossing* line = e.origin.line();
+                return line != nullptr &&
+                       (is_special[line->facets[0]] != 0 || is_special[line->facets[1]] != 0);
             }))
             common.special.push_back(f.number);
     }
@@ -566,22 +574,21 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
 }
 
 // Groups of operands leave them in an order of their own.
-std::vector<OutlinedSolid::Facet> facets_ascending(const OutlinedSolid& solid) {
-    std::vector<OutlinedSolid::Facet> out = solid.facets;
-    if (!std::ranges::is_sorted(out, {}, &OutlinedSolid::Facet::number))
-        std::ranges::sort(out, {}, &OutlinedSolid::Facet::number);
-    return out;
+void sort_facets(OutlinedSolid& solid) {
+    if (!std::ranges::is_sorted(solid.facets, {}, &OutlinedSolid::Facet::number))
+        std::ranges::sort(solid.facets, {}, &OutlinedSolid::Facet::number);
 }
 
 // By what assembly needs.
-UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes,
-                        const Crossings& operands, std::shared_ptr<const LazyTree> tree) {
+UndividedMeshes form_of(OutlinedSolid&& solid, const ManyMeshes& meshes, const Crossings& operands,
+                        std::shared_ptr<const LazyTree> tree) {
     UndividedMeshes out;
     for (std::size_t i = 0; i < meshes.sources.size(); ++i)
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
     auto outlined = std::make_shared<OutlinedFacets>();
-    outlined->vertices = solid.vertices;
-    for (const OutlinedSolid::Facet& f : facets_ascending(solid)) {
+    outlined->vertices = std::move(solid.vertices);
+    sort_facets(solid);
+    for (const OutlinedSolid::Facet& f : solid.facets) {
         if (f.whole) {
             out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
             continue;
@@ -589,11 +596,12 @@ UndividedMeshes form_of(const OutlinedSolid& solid, const ManyMeshes& meshes,
         outlined->facets.push_back(
             {f.number, static_cast<std::uint32_t>(outlined->edges.size()), f.count});
         for (const OutlinedSolid::Edge& e : solid.edges_of(f)) {
+            const FacetCrossing* line = e.origin.line();
             const std::uint32_t cutter =
-                e.line == nullptr ? 0 : e.line->facets[e.line->facets[0] == f.number ? 1 : 0];
+                line == nullptr ? 0 : line->facets[line->facets[0] == f.number ? 1 : 0];
             const std::uint32_t cutter_slot = meshes.slot_of(cutter);
-            const bool open_below = e.line != nullptr && meshes.is_open_below(cutter_slot, f.slot);
-            outlined->edges.push_back({e.from, e.to, cutter, e.own, open_below});
+            const bool open_below = line != nullptr && meshes.is_open_below(cutter_slot, f.slot);
+            outlined->edges.push_back({e.from, e.to, cutter, e.origin.own(), open_below});
         }
     }
     out.outlined = std::move(outlined);
@@ -683,7 +691,7 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
     });
     if (!result) return std::nullopt;
     operands->special = std::move(result->special);
-    UndividedMeshes form = form_of(result->solid, meshes, *operands, std::move(tree));
+    UndividedMeshes form = form_of(std::move(result->solid), meshes, *operands, std::move(tree));
     form.may_have_straight_crossings = nested && !operands->special.empty();
     form.may_have_sheets = result->has_sheets;
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();

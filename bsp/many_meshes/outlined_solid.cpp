@@ -14,23 +14,27 @@ OutlineBox OutlineBox::none() {
     return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 }
 
-OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool open_far_out) {
+OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool open_far_out,
+                            std::size_t room) {
     const LatticeMesh& mesh = meshes.sources[slot]->mesh();
     const std::uint32_t first = meshes.operands->operands[slot].first;
     OutlinedSolid out;
     out.open_far_out = open_far_out;
+    // What is reserved and not used takes no memory. Facets that are cut get more edges.
+    room = std::max(room, mesh.triangles.size());
+    out.facets.reserve(room);
+    out.boxes.reserve(room);
+    out.edges.reserve(3 * mesh.triangles.size() + 4 * (room - mesh.triangles.size()));
+    out.vertices.reserve(mesh.points.size() + (room - mesh.triangles.size()));
     out.vertices.resize(mesh.points.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
         out.vertices[v].at = {mesh.points[v].doubles(), 0.0};
-    out.facets.reserve(mesh.triangles.size());
-    out.boxes.reserve(mesh.triangles.size());
-    out.edges.reserve(3 * mesh.triangles.size());
     for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
         const auto& t = mesh.triangles[f];
         out.facets.push_back({first + f, slot, 3 * f, 3, true});
         OutlineBox& box = out.boxes.emplace_back(OutlineBox::none());
         for (std::uint32_t i = 0; i < 3; ++i) {
-            out.edges.push_back({t[i], t[(i + 1) % 3], nullptr, static_cast<std::int8_t>(i)});
+            out.edges.push_back({t[i], t[(i + 1) % 3], EdgeOrigin(i)});
             OutlineVertex& v = out.vertices[t[i]];
             v.facets[0] = first + f;
             v.which = static_cast<std::int8_t>(i);
@@ -59,6 +63,7 @@ void add_apart(OutlinedSolid&& solid, OutlinedSolid& to) {
         e.to += vertex;
         to.edges.push_back(e);
     }
+    to.unused_edges += solid.unused_edges;
     std::ranges::move(solid.lines, std::back_inserter(to.lines));
     to.box.add(solid.box);
 }

@@ -55,6 +55,28 @@ struct ManyMeshes {
     }
 };
 
+/// What an edge of a part of a facet lies in: a line with a cutter, or an edge of the facet. There
+/// are many of them, so one word has either.
+class EdgeOrigin {
+public:
+    EdgeOrigin() = default;
+    explicit EdgeOrigin(const FacetCrossing* line)
+        : bits_(reinterpret_cast<std::uintptr_t>(line)) {}
+    explicit EdgeOrigin(std::uint32_t own) : bits_(own) {}
+
+    /// Null for an edge of the facet.
+    [[nodiscard]] const FacetCrossing* line() const {
+        return bits_ < 3 ? nullptr : reinterpret_cast<const FacetCrossing*>(bits_);
+    }
+    /// From that corner of the facet to the next one; -1 for a line.
+    [[nodiscard]] std::int8_t own() const {
+        return bits_ < 3 ? static_cast<std::int8_t>(bits_) : std::int8_t{-1};
+    }
+
+private:
+    std::uintptr_t bits_ = 0;  // below 3: an edge of the facet
+};
+
 struct OutlineBox {
     Vector3 lo{};
     Vector3 hi{};
@@ -91,8 +113,7 @@ struct OutlinedSolid {
     struct Edge {
         std::uint32_t from = 0;  ///< vertices; the part is to the left, seen from above the facet
         std::uint32_t to = 0;
-        const FacetCrossing* line = nullptr;  ///< of the facet with a cutter; else the edge is
-        std::int8_t own = -1;                 ///< a part of this one of the facet's
+        EdgeOrigin origin;
     };
     struct Facet {
         std::uint32_t number = 0;  ///< of Crossings
@@ -106,6 +127,7 @@ struct OutlinedSolid {
     std::vector<Facet> facets;      ///< each once
     std::vector<OutlineBox> boxes;  ///< of their parts
     std::vector<Edge> edges;
+    std::size_t unused_edges = 0;  ///< those that no facet has
     std::vector<OutlineVertex> vertices;
     std::vector<std::unique_ptr<const Lines>> lines;  ///< that edges lie in
     OutlineBox box = OutlineBox::none();              ///< of all
@@ -116,9 +138,9 @@ struct OutlinedSolid {
     }
 };
 
-/// One operand.
+/// One operand, with room for so many facets in place of its own.
 [[nodiscard]] OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot,
-                                          bool open_far_out);
+                                          bool open_far_out, std::size_t room);
 
 /// Adds the boundary of a solid whose box is apart; both leave open what is far out. `to` is then
 /// what both leave open together.

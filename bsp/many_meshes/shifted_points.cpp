@@ -558,17 +558,17 @@ int ShiftedPoints::order_along(const OutlineVertex& vertex, const OutlineVertex&
 int ShiftedPoints::order_at_height(std::uint32_t facet, const OutlinedSolid::Edge& edge,
                                    const OutlineVertex& corner,
                                    const std::array<std::size_t, 2>& axes) const {
-    const bool whole =
-        is_whole(meshes_, corner) &&
-        (edge.line == nullptr ? are_whole(meshes_, {facet})
-                              : are_whole(meshes_, {edge.line->facets[0], edge.line->facets[1]}));
+    const FacetCrossing* line = edge.origin.line();
+    const bool whole = is_whole(meshes_, corner) &&
+                       (line == nullptr ? are_whole(meshes_, {facet})
+                                        : are_whole(meshes_, {line->facets[0], line->facets[1]}));
     return with_numbers(meshes_, whole, [&](auto& sides) {
         const auto plane = sides.across(axes[0], corner);
         const auto at_height = sides.across(axes[1], corner);
-        if (edge.line == nullptr)
-            return sides.side_on_edge(sides.edge(facet, edge.own), at_height, plane);
-        return sides.side_of_meeting(sides.plane(edge.line->facets[0]),
-                                     sides.plane(edge.line->facets[1]), at_height, plane);
+        if (line == nullptr)
+            return sides.side_on_edge(sides.edge(facet, edge.origin.own()), at_height, plane);
+        return sides.side_of_meeting(sides.plane(line->facets[0]), sides.plane(line->facets[1]),
+                                     at_height, plane);
     });
 }
 
