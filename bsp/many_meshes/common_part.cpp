@@ -23,7 +23,7 @@
 #include <trisect/bsp/many_meshes/common_segments.h>
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 #include <trisect/bsp/many_meshes/point_side.h>
-#include <trisect/bsp/many_meshes/spare_memory.h>
+#include <trisect/bsp/many_meshes/spare_outlines.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/disjoint_sets.h>
 #include <trisect/kernel/support/flat_map.h>
@@ -68,13 +68,7 @@ public:
         return true;
     }
     [[nodiscard]] OutlinedSolid result() { return std::move(out_); }
-    /// Memory for the next ones.
-    void give_back(OutlinedSolid&& solid) {
-        spare_facets_.give_back(std::move(solid.facets));
-        spare_boxes_.give_back(std::move(solid.boxes));
-        spare_edges_.give_back(std::move(solid.edges));
-        spare_vertices_.give_back(std::move(solid.vertices));
-    }
+    [[nodiscard]] SpareOutlines& spare() { return spare_; }
     [[nodiscard]] const SpecialPosition& special() const { return special_; }
 
 private:
@@ -102,9 +96,6 @@ private:
     void add_vertices_of_second();
     void stay_in(OutlinedSolid& first);
     void keep_where_they_are();
-    template <class Item>
-    static void make_room(std::vector<Item>& items, std::size_t more,
-                          SpareMemory<std::vector<Item>>& spare);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
                  const FacetCrossing& line);
     [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
@@ -165,10 +156,7 @@ private:
     std::array<std::uint32_t, 2> added_{};
     DisjointSets joined_;
     OutlinedSolid out_;
-    SpareMemory<std::vector<OutlinedSolid::Facet>> spare_facets_;
-    SpareMemory<std::vector<OutlineBox>> spare_boxes_;
-    SpareMemory<std::vector<OutlinedSolid::Edge>> spare_edges_;
-    SpareMemory<std::vector<OutlineVertex>> spare_vertices_;
+    SpareOutlines spare_;
 };
 
 void CommonPart::Steps::start(const OutlinedSolid& first, const OutlinedSolid& second) {
@@ -394,11 +382,8 @@ std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, DisjointS
 void CommonPart::Steps::reserve() {
     const auto both = [&](auto size) { return size(*solids_[0]) + size(*solids_[1]); };
     const std::size_t facets = both([](const OutlinedSolid& s) { return s.facets.size(); });
-    out_.facets = spare_facets_.take(facets);
-    out_.boxes = spare_boxes_.take(facets);
-    out_.edges = spare_edges_.take(both([](const OutlinedSolid& s) { return s.edges.size(); }) +
-                                   4 * made_.size());
-    out_.vertices = spare_vertices_.take(
+    out_ = spare_.take(
+        facets, both([](const OutlinedSolid& s) { return s.edges.size(); }) + 4 * made_.size(),
         both([](const OutlinedSolid& s) { return s.vertices.size(); }) + made_.size());
 }
 
@@ -436,27 +421,14 @@ void CommonPart::Steps::add_vertices_of_second() {
     out_.vertices.insert(out_.vertices.end(), more.begin(), more.end());
 }
 
-template <class Item>
-void CommonPart::Steps::make_room(std::vector<Item>& items, std::size_t more,
-                                  SpareMemory<std::vector<Item>>& spare) {
-    const std::size_t all = items.size() + more;
-    if (items.capacity() >= all) return;
-    std::vector<Item> larger = spare.take(all + all / 4);
-    larger.assign(items.begin(), items.end());
-    std::swap(items, larger);
-    spare.give_back(std::move(larger));
-}
-
 // What is kept of the first solid stays where it is, the second one's is added.
 void CommonPart::Steps::stay_in(OutlinedSolid& first) {
     added_ = {0, static_cast<std::uint32_t>(first.vertices.size())};
     out_ = std::move(first);
     solids_[0] = &out_;
     const OutlinedSolid& second = *solids_[1];
-    make_room(out_.facets, second.facets.size(), spare_facets_);
-    make_room(out_.boxes, second.facets.size(), spare_boxes_);
-    make_room(out_.edges, second.edges.size() + 4 * made_.size(), spare_edges_);
-    make_room(out_.vertices, second.vertices.size() + made_.size(), spare_vertices_);
+    spare_.make_room(out_, second.facets.size(), second.edges.size() + 4 * made_.size(),
+                     second.vertices.size() + made_.size());
     add_vertices_of_second();
     keep_where_they_are();
 }
@@ -606,13 +578,19 @@ void CommonPart::Steps::keep_parts(std::size_t solid) {
 namespace {
 
 // Each is far out of the other one.
-OutlinedSolid common_of_apart(OutlinedSolid first, OutlinedSolid second) {
-    const bool open_far_out = first.open_far_out && second.open_far_out;
+// Into either of them.
+OutlinedSolid common_of_apart(OutlinedSolid& first, OutlinedSolid& second, SpareOutlines& spare) {
+    if (first.open_far_out && second.open_far_out) {
+        spare.make_room(first, second.facets.size(), second.edges.size(), second.vertices.size());
+        add_apart(second, first);
+        return std::move(first);
+    }
     OutlinedSolid out;
-    if (first.open_far_out) out = std::move(second);
-    const bool takes_first = open_far_out || (!first.open_far_out && second.open_far_out);
-    if (takes_first) add_apart(std::move(first), out);
-    out.open_far_out = open_far_out;
+    if (first.open_far_out)
+        std::swap(out, second);
+    else if (second.open_far_out)
+        std::swap(out, first);
+    out.open_far_out = false;
     return out;
 }
 
@@ -625,15 +603,21 @@ CommonPart::~CommonPart() = default;
 
 const SpecialPosition& CommonPart::special() const { return steps_->special(); }
 
+SpareOutlines& CommonPart::spare() { return steps_->spare(); }
+
 std::optional<OutlinedSolid> CommonPart::of(OutlinedSolid first, OutlinedSolid second,
                                             EvaluateStats& stats) {
-    if (!first.box.meets(second.box)) return common_of_apart(std::move(first), std::move(second));
-    if (!steps_->run(first, second, stats)) return std::nullopt;
-    OutlinedSolid out = steps_->result();
-    for (OutlinedSolid* s : {&first, &second})
-        for (auto& lines : s->lines) out.lines.push_back(std::move(lines));
-    steps_->give_back(std::move(first));
-    steps_->give_back(std::move(second));
+    OutlinedSolid out;
+    if (first.box.meets(second.box)) {
+        if (!steps_->run(first, second, stats)) return std::nullopt;
+        out = steps_->result();
+        for (OutlinedSolid* s : {&first, &second})
+            for (auto& lines : s->lines) out.lines.push_back(std::move(lines));
+    } else {
+        out = common_of_apart(first, second, steps_->spare());
+    }
+    steps_->spare().give_back(std::move(first));
+    steps_->spare().give_back(std::move(second));
     return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/spare_outlines.h>
 #include <trisect/bsp/many_meshes/special_position.h>
 
 namespace trisect::detail {
@@ -20,6 +21,7 @@ public:
     CommonPart(const CommonPart&) = delete;
     CommonPart& operator=(const CommonPart&) = delete;
 
+    [[nodiscard]] SpareOutlines& spare();
     /// What both leave open. Nothing where sides are not known. O(n log n) where facets meet few
     /// others.
     [[nodiscard]] std::optional<OutlinedSolid> of(OutlinedSolid first, OutlinedSolid second,

@@ -339,7 +339,7 @@ private:
     // `room`: for so many facets, also in what follows. The first operand of all has room for all
     // that is joined to it.
     [[nodiscard]] OutlinedSolid of_operand(std::uint32_t slot, std::size_t room) const {
-        return whole_operand(meshes_, slot, is_open_far(slot), room);
+        return whole_operand(meshes_, slot, is_open_far(slot), room, common().spare());
     }
     [[nodiscard]] std::optional<OutlinedSolid> of_rest(EvaluateStats& stats) const {
         if (clusters_.empty()) return of(order_, 0, stats);
@@ -372,7 +372,7 @@ private:
                 [&](EvaluateStats& s) { return of_clusters(clusters.first(half), s); },
                 [&](EvaluateStats& s) { return of_clusters(clusters.subspan(half), s); });
             if (!one || !other) return std::nullopt;
-            add_apart(*std::move(other), *one);
+            add_apart(*other, *one);
             return std::move(one);
         }
         OutlinedSolid out;
@@ -380,7 +380,8 @@ private:
         for (const auto& slots : clusters) {
             std::optional<OutlinedSolid> solid = of(slots, out.facets.empty() ? facets : 0, stats);
             if (!solid) return std::nullopt;
-            add_apart(*std::move(solid), out);
+            add_apart(*solid, out);
+            common().spare().give_back(*std::move(solid));
         }
         return out;
     }
@@ -433,9 +434,11 @@ private:
                                                          const Above& above_by) const {
         auto [below, above] = both(facets, stats, below_by, above_by);
         if (!below || !above) return std::nullopt;
-        CommonPart& common =
-            common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); });
-        return common.of(*std::move(below), *std::move(above), stats);
+        return common().of(*std::move(below), *std::move(above), stats);
+    }
+    // Of this thread.
+    [[nodiscard]] CommonPart& common() const {
+        return common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); });
     }
 
     [[nodiscard]] std::size_t facets_of_terms(const NestedFormula::Node& node, std::size_t first,

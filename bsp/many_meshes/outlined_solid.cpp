@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include <trisect/bsp/many_meshes/spare_outlines.h>
+
 namespace trisect::detail {
 
 OutlineBox OutlineBox::none() {
@@ -15,17 +17,14 @@ OutlineBox OutlineBox::none() {
 }
 
 OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool open_far_out,
-                            std::size_t room) {
+                            std::size_t room, SpareOutlines& spare) {
     const LatticeMesh& mesh = meshes.sources[slot]->mesh();
     const std::uint32_t first = meshes.operands->operands[slot].first;
-    OutlinedSolid out;
-    out.open_far_out = open_far_out;
     // What is reserved and not used takes no memory. Facets that are cut get more edges.
-    room = std::max(room, mesh.triangles.size());
-    out.facets.reserve(room);
-    out.boxes.reserve(room);
-    out.edges.reserve(3 * mesh.triangles.size() + 4 * (room - mesh.triangles.size()));
-    out.vertices.reserve(mesh.points.size() + (room - mesh.triangles.size()));
+    const std::size_t own = mesh.triangles.size();
+    const std::size_t more = std::max(room, own) - own;
+    OutlinedSolid out = spare.take(own + more, 3 * own + 4 * more, mesh.points.size() + more);
+    out.open_far_out = open_far_out;
     out.vertices.resize(mesh.points.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
         out.vertices[v].at = {mesh.points[v].doubles(), 0.0};
@@ -45,9 +44,9 @@ OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool o
     return out;
 }
 
-void add_apart(OutlinedSolid&& solid, OutlinedSolid& to) {
+void add_apart(OutlinedSolid& solid, OutlinedSolid& to) {
     if (to.facets.empty()) {
-        to = std::move(solid);
+        std::swap(to, solid);
         return;
     }
     const auto vertex = static_cast<std::uint32_t>(to.vertices.size());

@@ -138,12 +138,15 @@ struct OutlinedSolid {
     }
 };
 
+class SpareOutlines;
+
 /// One operand, with room for so many facets in place of its own.
 [[nodiscard]] OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot,
-                                          bool open_far_out, std::size_t room);
+                                          bool open_far_out, std::size_t room,
+                                          SpareOutlines& spare);
 
 /// Adds the boundary of a solid whose box is apart; both leave open what is far out. `to` is then
-/// what both leave open together.
-void add_apart(OutlinedSolid&& solid, OutlinedSolid& to);
+/// what both leave open together; `solid` may be changed.
+void add_apart(OutlinedSolid& solid, OutlinedSolid& to);
 
 }  // namespace trisect::detail
