@@ -23,7 +23,8 @@ OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool o
     // What is reserved and not used takes no memory. Facets that are cut get more edges.
     const std::size_t own = mesh.triangles.size();
     const std::size_t more = std::max(room, own) - own;
-    OutlinedSolid out = spare.take(own + more, 3 * own + 4 * more, mesh.points.size() + more);
+    OutlinedSolid out =
+        spare.take(own + more, 3 * own + 6 * more, mesh.points.size() + more + more / 2);
     out.open_far_out = open_far_out;
     out.vertices.resize(mesh.points.size());
     for (std::size_t v = 0; v < mesh.points.size(); ++v)

@@ -43,7 +43,7 @@ private:
     static void make_room(Vector& items, std::size_t more, SpareMemory<Vector>& spare) {
         const std::size_t all = items.size() + more;
         if (items.capacity() >= all) return;
-        Vector larger = spare.take(all + all / 4);
+        Vector larger = spare.take(all + all / 2);
         larger.assign(items.begin(), items.end());
         std::swap(items, larger);
         spare.give_back(std::move(larger));
