@@ -120,7 +120,7 @@ private:
     void add_planes_through(PointId value);
     [[nodiscard]] bool is_same(PointId value, PointId name);
     [[nodiscard]] bool conform_edges(std::size_t traced, std::size_t of_leaves);
-    [[nodiscard]] bool conform_traced(std::span<const BoundaryEdge> edges);
+    [[nodiscard]] bool conform_traced(std::span<BoundaryEdge> edges);
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -759,24 +759,22 @@ bool Gatherer::is_same(PointId value, PointId name) {
 // Where a facet is in special position, what its outline encloses may have no width, as far as the
 // shift of a mesh goes: edges have no length or lie in each other. With all vertices inside them
 // inserted, what is too much cancels.
-bool Gatherer::conform_traced(std::span<const BoundaryEdge> edges) {
-    std::vector<BoundaryEdge> special;
-    std::vector<PointId> vertices;
-    const auto is_special = [&](const BoundaryEdge& e) {
-        return out_.facets[as_index(e.facet)].is_special;
-    };
-    for (auto e = edges.begin(); e != edges.end();) {
-        const auto end = std::find_if(e, edges.end(), is_special);
-        out_.edges.insert(out_.edges.end(), e, end);
-        for (e = end; e != edges.end() && is_special(*e); ++e) {
-            if (e->from == e->to) continue;
-            special.push_back(*e);
-            vertices.insert(vertices.end(), {e->from, e->to});
-        }
-    }
-    if (special.empty()) return true;
+// Moves those edges to the front, and overwrites others.
+bool Gatherer::conform_traced(std::span<BoundaryEdge> edges) {
     splitter_.clear();
-    for (const PointId p : vertices) splitter_.add_candidate(p);
+    std::size_t count = 0;
+    for (const BoundaryEdge& e : edges) {
+        if (!out_.facets[as_index(e.facet)].is_special) {
+            out_.edges.push_back(e);
+            continue;
+        }
+        if (e.from == e.to) continue;
+        splitter_.add_candidate(e.from);
+        splitter_.add_candidate(e.to);
+        edges[count++] = e;
+    }
+    const auto special = edges.first(count);
+    if (special.empty()) return true;
     if (!may_have_sheets_) {
         splitter_.split(special, out_.edges);
         return true;

@@ -582,6 +582,34 @@ void sort_facets(OutlinedSolid& solid) {
         std::ranges::sort(solid.facets, {}, &OutlinedSolid::Facet::number);
 }
 
+// For parts of facets, and those of their vertices that are wanted: most are of whole ones.
+void take_vertices(OutlinedFacets& outlined, OutlinedSolid& solid) {
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    std::vector<std::uint32_t> numbers(solid.vertices.size(), unused);
+    for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
+    std::uint32_t next = 0;
+    for (std::uint32_t& n : numbers)
+        if (n != unused) n = next++;
+    outlined.vertices.reserve(next);
+    for (std::size_t v = 0; v < numbers.size(); ++v)
+        if (numbers[v] != unused) outlined.vertices.push_back(solid.vertices[v]);
+    for (OutlinedFacets::Edge& e : outlined.edges) {
+        e.from = numbers[e.from];
+        e.to = numbers[e.to];
+    }
+}
+
+void reserve(OutlinedFacets& outlined, const OutlinedSolid& solid) {
+    std::size_t facets = 0;
+    std::size_t edges = 0;
+    for (const OutlinedSolid::Facet& f : solid.facets) {
+        facets += f.whole ? 0 : 1;
+        edges += f.whole ? 0 : f.count;
+    }
+    outlined.facets.reserve(facets);
+    outlined.edges.reserve(edges);
+}
+
 // By what assembly needs.
 UndividedMeshes form_of(OutlinedSolid&& solid, const ManyMeshes& meshes, const Crossings& operands,
                         std::shared_ptr<const LazyTree> tree) {
@@ -589,8 +617,8 @@ UndividedMeshes form_of(OutlinedSolid&& solid, const ManyMeshes& meshes, const C
     for (std::size_t i = 0; i < meshes.sources.size(); ++i)
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
     auto outlined = std::make_shared<OutlinedFacets>();
-    outlined->vertices = std::move(solid.vertices);
     sort_facets(solid);
+    reserve(*outlined, solid);
     for (const OutlinedSolid::Facet& f : solid.facets) {
         if (f.whole) {
             out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
@@ -607,6 +635,7 @@ UndividedMeshes form_of(OutlinedSolid&& solid, const ManyMeshes& meshes, const C
             outlined->edges.push_back({e.from, e.to, cutter, e.origin.own(), open_below});
         }
     }
+    take_vertices(*outlined, solid);
     out.outlined = std::move(outlined);
     out.crossings = std::make_shared<const Crossings>(operands);
     out.tree = std::move(tree);

@@ -234,7 +234,7 @@ VertexColumns* EdgeSplitter::columns_of(const BoundaryEdge& e) {
     if (farthest > 3 * widest_) return nullptr;
     VertexColumns& columns = columns_[axis];
     // Some dozens of times wider than what is looked for, so that this is mostly in one column.
-    if (columns.is_empty()) columns.build(candidates_, axis, widest_ > 0 ? 256 * widest_ : 1);
+    if (columns.is_empty()) columns.build(grid_.vertices(), axis, widest_ > 0 ? 256 * widest_ : 1);
     return &columns;
 }
 

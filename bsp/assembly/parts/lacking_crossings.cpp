@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -31,8 +32,9 @@ namespace {
 class LackingCrossings {
 public:
     explicit LackingCrossings(BoundaryParts& parts) : parts_(parts) {
-        for (const BoundaryEdge& e : parts.edges)
-            if (facet(e).is_special) edges_.push_back(e);
+        const auto is_special = [&](const BoundaryEdge& e) { return facet(e).is_special; };
+        edges_.reserve(static_cast<std::size_t>(std::ranges::count_if(parts.edges, is_special)));
+        std::ranges::copy_if(parts.edges, std::back_inserter(edges_), is_special);
         radix_sort(edges_, [](const BoundaryEdge& e) { return ends_of(e); });
     }
     [[nodiscard]] bool add() {
@@ -229,7 +231,8 @@ private:
     [[nodiscard]] Place place_in(std::int32_t number, const BoundaryEdge& segment,
                                  PlaneId across) const {
         bool inside = false;
-        for (const BoundaryEdge& e : edges_of(number)) {
+        for (const std::uint32_t place : edges_of(number)) {
+            const BoundaryEdge& e = edges_[place];
             if (ends_of(e) == ends_of(segment)) continue;
             const int from = side_at(e.from, across);
             const int to = side_at(e.to, across);
@@ -301,24 +304,25 @@ private:
         }
         return false;
     }
-    [[nodiscard]] Edges edges_of(std::int32_t number) const {
+    [[nodiscard]] std::span<const std::uint32_t> edges_of(std::int32_t number) const {
         const std::size_t first = first_[as_index(number)];
         return std::span(by_facet_).subspan(first, first_[as_index(number) + 1] - first);
     }
     void list_boxes() {
-        by_facet_ = edges_;
-        radix_sort(by_facet_,
-                   [](const BoundaryEdge& e) { return static_cast<std::uint64_t>(e.facet); });
-        first_.assign(parts_.facets.size() + 1, 0);
-        for (const BoundaryEdge& e : by_facet_) ++first_[as_index(e.facet) + 1];
-        for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+        // A facet's end moves on to where it ends, which is where the next one begins.
+        first_.assign(parts_.facets.size() + 2, 0);
+        for (const BoundaryEdge& e : edges_) ++first_[as_index(e.facet) + 2];
+        for (std::size_t i = 2; i < first_.size(); ++i) first_[i] += first_[i - 1];
+        by_facet_.resize(edges_.size());
+        for (std::uint32_t i = 0; i < edges_.size(); ++i)
+            by_facet_[first_[as_index(edges_[i].facet) + 1]++] = i;
         std::vector<FacetBox> boxes;
         for (std::size_t f = 0; f < parts_.facets.size(); ++f) {
-            const Edges edges = edges_of(static_cast<std::int32_t>(f));
+            const auto edges = edges_of(static_cast<std::int32_t>(f));
             if (edges.empty()) continue;
             FacetBox& box = boxes.emplace_back();
             box.facet = static_cast<std::int32_t>(f);
-            for (const BoundaryEdge& e : edges) box.add(parts_.bench.approximation(e.from));
+            for (const std::uint32_t e : edges) box.add(parts_.bench.approximation(edges_[e].from));
         }
         boxes_.emplace(std::move(boxes));
     }
@@ -329,11 +333,11 @@ private:
 
     BoundaryParts& parts_;
     std::vector<BoundaryEdge> edges_;
-    std::vector<BoundaryEdge> by_facet_;  // the same, once they are needed
-    std::vector<std::size_t> first_;      // of these
-    std::optional<FacetBoxes> boxes_;     // of facets that have some
-    std::vector<OfPlane> planes_;         // of a segment
-    std::vector<FacetEdge> here_;         // of a segment
+    std::vector<std::uint32_t> by_facet_;  // their places, once they are needed
+    std::vector<std::uint32_t> first_;     // of these
+    std::optional<FacetBoxes> boxes_;      // of facets that have some
+    std::vector<OfPlane> planes_;          // of a segment
+    std::vector<FacetEdge> here_;          // of a segment
     std::vector<BoundaryEdge> inside_;
     std::vector<std::int32_t> ending_;  // facets that end there
     std::vector<std::int32_t> others_;

@@ -24,8 +24,8 @@ class VertexColumns {
 public:
     using Vertex = VertexBoxes::Vertex;
 
-    /// `width` is about what vertices on one line are apart across it. Copies the vertices. O(n),
-    /// and O(m log m) for each column of m
+    /// `width` is about what vertices on one line are apart across it. The vertices must stay where
+    /// they are. O(n), and O(m log m) for each column of m
     void build(std::span<const Vertex> vertices, std::size_t axis, double width);
     void clear() { columns_.clear(); }
     [[nodiscard]] bool is_empty() const { return columns_.empty(); }
@@ -38,16 +38,20 @@ public:
         const Place first = place_of(lo);
         const Place last = place_of(hi);
         if (last[0] - first[0] > 1 || last[1] - first[1] > 1) return false;
-        const auto along = [&](const Vertex& v) { return v.c[axis_]; };
+        std::array<std::size_t, 4> seen{};  // columns of equal keys are one
+        std::size_t count = 0;
+        const auto along = [&](std::uint32_t v) { return vertices_[v].c[axis_]; };
         for (std::int64_t x = first[0]; x <= last[0]; ++x)
             for (std::int64_t y = first[1]; y <= last[1]; ++y) {
-                const Column& column = columns_[slot_of(key_of({x, y}))];
-                if (column.count == 0) continue;
-                const auto all = std::span(vertices_).subspan(column.first, column.count);
+                const std::size_t slot = slot_of(key_of({x, y}));
+                const Column& column = columns_[slot];
+                const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
+                if (column.count == 0 || std::find(seen.begin(), end, slot) != end) continue;
+                seen[count++] = slot;
+                const auto all = std::span(order_).subspan(column.first, column.count);
                 const auto begin = std::ranges::lower_bound(all, lo[axis_], {}, along);
-                const auto end = std::ranges::upper_bound(all, hi[axis_], {}, along);
-                look_at(all.subspan(static_cast<std::size_t>(begin - all.begin()),
-                                    static_cast<std::size_t>(end - begin)));
+                for (auto v = begin; v != all.end() && along(*v) <= hi[axis_]; ++v)
+                    look_at(vertices_.subspan(*v, 1));
             }
         return true;
     }
@@ -55,7 +59,7 @@ public:
 private:
     using Place = std::array<std::int64_t, 2>;
     struct Column {
-        std::uint64_t key = 0;
+        std::uint32_t key = 0;
         std::uint32_t first = 0;
         std::uint32_t count = 0;  // 0: none
     };
@@ -70,21 +74,22 @@ private:
         return {number((axis_ + 1) % 3), number((axis_ + 2) % 3)};
     }
     // Columns of equal keys count as one.
-    [[nodiscard]] static std::uint64_t key_of(const Place& p) {
-        return mix64(static_cast<std::uint64_t>(p[0])) + static_cast<std::uint64_t>(p[1]);
+    [[nodiscard]] static std::uint32_t key_of(const Place& p) {
+        return static_cast<std::uint32_t>(
+            mix64(mix64(static_cast<std::uint64_t>(p[0])) + static_cast<std::uint64_t>(p[1])));
     }
     // Of the column with that key, or where it would be.
-    [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
-        std::size_t at = static_cast<std::size_t>(key * 0x9e3779b97f4a7c15U >> shift_);
+    [[nodiscard]] std::size_t slot_of(std::uint32_t key) const {
+        std::size_t at = key & (columns_.size() - 1);
         while (columns_[at].count != 0 && columns_[at].key != key)
             at = (at + 1) & (columns_.size() - 1);
         return at;
     }
 
     std::size_t axis_ = 0;
-    std::vector<Vertex> vertices_;  // column after column, each along the axis
-    std::vector<Column> columns_;   // a power of two of them, at most half full
-    int shift_ = 0;
+    std::span<const Vertex> vertices_;
+    std::vector<std::uint32_t> order_;  // column after column, each along the axis
+    std::vector<Column> columns_;       // a power of two of them, at most half full
     std::array<double, 3> origin_{};
     double per_unit_ = 0;  // columns
 };
@@ -95,12 +100,12 @@ inline void VertexColumns::build(std::span<const Vertex> vertices, std::size_t a
     origin_ = vertices[0].c;
     per_unit_ = 1 / width;
     const std::size_t places = std::bit_ceil(2 * vertices.size());
-    shift_ = 64 - std::countr_zero(places);
+    vertices_ = vertices;
     columns_.assign(places, {});
     std::vector<std::uint32_t> slots;
     slots.reserve(vertices.size());
     for (const Vertex& v : vertices) {
-        const std::uint64_t key = key_of(place_of(v.c));
+        const std::uint32_t key = key_of(place_of(v.c));
         Column& column = columns_[slot_of(key)];
         column.key = key;
         ++column.count;
@@ -111,15 +116,15 @@ inline void VertexColumns::build(std::span<const Vertex> vertices, std::size_t a
         column.first = first;
         first += column.count;
     }
-    vertices_.resize(vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-        vertices_[columns_[slots[i]].first++] = vertices[i];
+    order_.resize(vertices.size());
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) order_[columns_[slots[i]].first++] = i;
     for (Column& column : columns_) {
         column.first -= column.count;
         if (column.count < 2) continue;
-        const auto all = std::span(vertices_).subspan(column.first, column.count);
-        std::sort(all.begin(), all.end(),
-                  [axis](const Vertex& a, const Vertex& b) { return a.c[axis] < b.c[axis]; });
+        const auto all = std::span(order_).subspan(column.first, column.count);
+        std::sort(all.begin(), all.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return vertices[a].c[axis] < vertices[b].c[axis];
+        });
     }
 }
 

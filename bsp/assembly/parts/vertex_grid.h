@@ -25,6 +25,8 @@ public:
     /// Cubes of about that size. Copies the vertices. O(n)
     void build(std::span<const Vertex> vertices, double size);
     void clear() { cells_.clear(); }
+    /// Cube by cube; they stay where they are.
+    [[nodiscard]] std::span<const Vertex> vertices() const { return vertices_; }
 
     /// Calls `look_at` with spans that have all vertices of a box, and few others. False where it
     /// has too many cubes; then nothing is called.
