@@ -49,6 +49,21 @@ struct Slice {
     friend bool operator==(const Slice&, const Slice&) = default;
 };
 
+/// How slices were found (kernel/diagnostics.h), each height once.
+struct SliceCounters {
+    std::uint64_t walked = 0;     ///< by a walk from triangle to triangle: loops as they come
+    std::uint64_t arranged = 0;   ///< by the arrangement of regions, which resolves what meets:
+    std::uint64_t faces = 0;      ///< of them, where a face lies in the plane, under Closed
+    std::uint64_t touching = 0;   ///< of them, where a corner has several sides that come and go
+    std::uint64_t collapsed = 0;  ///< of them, where rounding made corners equal
+    /// Of them, all others whose rounded loops were not proved to be simple and apart.
+    std::uint64_t crossing = 0;
+
+    SliceCounters& operator+=(const SliceCounters& o);
+    SliceCounters& operator-=(const SliceCounters& o);
+    friend bool operator==(const SliceCounters&, const SliceCounters&) = default;
+};
+
 /// A slice for each height, in the order of the heights, which may be any, and may repeat. A slice
 /// across z under SliceRule::Closed has the points and loops of section() at its height.
 ///

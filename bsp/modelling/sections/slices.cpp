@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 
 #include <trisect/brep/measure/double_pair.h>
-#include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/flat/flat_mesh.h>
-#include <trisect/bsp/flat_prism.h>
-#include <trisect/bsp/modelling/mesh_section.h>
-#include <trisect/bsp/modelling/plane_region.h>
-#include <trisect/bsp/modelling/section_prism.h>
+#include <trisect/bsp/modelling/sections/arranged_slice.h>
+#include <trisect/bsp/modelling/sections/layer_walk.h>
+#include <trisect/bsp/modelling/sections/mesh_section.h>
+#include <trisect/bsp/modelling/sections/section_edges.h>
+#include <trisect/bsp/modelling/sections/section_prism.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -21,24 +20,27 @@ namespace trisect {
 namespace {
 
 using detail::DoublePair;
+using detail::LayerOutcome;
 
-Slice slice_of(detail::SectionPrism section, double height) {
-    Slice out;
-    out.height = height;
-    if (section.prism.is_empty()) return out;
-    auto flat = flat_outlines(section.prism);
-    if (!flat) {  // of coordinates that have no lattice in common
-        section.prism = solid_of_region(region_of_faces(section.prism, 1));
-        section.is_exact = false;
-        flat = flat_outlines(section.prism);
-        if (!flat) return out;
+void count(SliceCounters& counts, LayerOutcome outcome) {
+    switch (outcome) {
+        case LayerOutcome::Found:
+            ++counts.walked;
+            return;
+        case LayerOutcome::Faces:
+            ++counts.faces;
+            break;
+        case LayerOutcome::Touching:
+            ++counts.touching;
+            break;
+        case LayerOutcome::Collapsed:
+            ++counts.collapsed;
+            break;
+        case LayerOutcome::Crossing:
+            ++counts.crossing;
+            break;
     }
-    out.points = std::move(flat->points);
-    out.loops = std::move(flat->loops);
-    const auto& form = std::get<detail::FlatPrism>(detail::state_of(section.prism)->form);
-    out.regions = detail::flat_regions(form.operand->resolved());
-    out.is_exact = section.is_exact && flat->is_exact;
-    return out;
+    ++counts.arranged;
 }
 
 /// Limits are kept by the thread that has them.
@@ -51,23 +53,27 @@ std::uint32_t threads_within_limits(std::uint32_t threads) {
 std::vector<Slice> slices_of(const detail::MeshSection& mesh, std::span<const double> heights,
                              const SliceOptions& options) {
     const detail::SectionStack stack(mesh, heights);
+    const detail::SectionEdges edges(mesh);
     std::vector<Slice> found(stack.size());
     EvaluateOptions evaluation = options.evaluate;
     evaluation.threads = 1;
     const detail::ParallelParts parts(stack.size(), threads_within_limits(options.evaluate.threads),
                                       1);
+    std::vector<SliceCounters> counts(parts.count());
     const StopScope* const scope = detail::stop_scope_of_thread;
-    parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        detail::LayerWalk walk(mesh, edges);
         for (std::size_t i = begin; i < end; ++i) {
             detail::check_flags(scope);
             const detail::SectionPlane plane = stack.plane(i);
-            if (plane.triangles.empty())
-                found[i].height = plane.height;
-            else
-                found[i] =
-                    slice_of(section_prism(mesh, plane, options.rule, evaluation), plane.height);
+            const LayerOutcome outcome =
+                walk.run(plane, options.rule, evaluation.winding, found[i]);
+            count(counts[part], outcome);
+            if (outcome != LayerOutcome::Found)
+                found[i] = detail::arranged_slice(mesh, plane, options.rule, evaluation);
         }
     });
+    for (const SliceCounters& c : counts) detail::counters_of_thread<SliceCounters> += c;
     // Each goes to the last one that has its height, and is copied for others.
     std::vector<std::size_t> left(stack.size(), 0);
     std::vector<std::size_t> places;
@@ -141,6 +147,26 @@ double area_of_region(const Slice& slice, std::size_t region, const SliceFrame& 
     for (const std::uint32_t loop : slice.regions[region])
         twice = add(twice, twice_area(slice, slice.loops[loop]));
     return half_stretched(twice, frame);
+}
+
+SliceCounters& SliceCounters::operator+=(const SliceCounters& o) {
+    walked += o.walked;
+    arranged += o.arranged;
+    faces += o.faces;
+    touching += o.touching;
+    collapsed += o.collapsed;
+    crossing += o.crossing;
+    return *this;
+}
+
+SliceCounters& SliceCounters::operator-=(const SliceCounters& o) {
+    walked -= o.walked;
+    arranged -= o.arranged;
+    faces -= o.faces;
+    touching -= o.touching;
+    collapsed -= o.collapsed;
+    crossing -= o.crossing;
+    return *this;
 }
 
 double perimeter(const Slice& slice, const SliceFrame& frame) {

@@ -2,11 +2,9 @@
 //
 // A triangle with corners on both sides of the plane has one edge that goes down through it and one
 // that goes up, and its side leads from the first to the second. A corner of the section is thus an
-// edge of the mesh, or a corner of it that lies in the plane, and is found by that name. Its
-// coordinates are quotients of sums of products: in pairs of doubles where these show the nearest
-// double, in fractions else.
+// edge of the mesh, or a corner of it that lies in the plane, and is found by that name.
 
-#include <trisect/bsp/modelling/mesh_section.h>
+#include <trisect/bsp/modelling/sections/mesh_section.h>
 
 #include <algorithm>
 #include <bit>
@@ -16,8 +14,7 @@
 #include <optional>
 #include <utility>
 
-#include <trisect/brep/measure/double_pair.h>
-#include <trisect/brep/measure/exact_values.h>
+#include <trisect/bsp/modelling/sections/section_numbers.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
@@ -29,54 +26,12 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-mpq_class in_users_units(mpq_class v, Lattice lattice) {
-    if (lattice.exponent < 0)
-        v >>= static_cast<unsigned long>(-lattice.exponent);
-    else
-        v <<= static_cast<unsigned long>(lattice.exponent);
-    return v;
-}
-
-std::array<mpq_class, 3> exact_point(const ExactMesh& mesh, std::uint32_t v) {
-    const Corner c = corner_at(mesh.points[v]);
-    std::array<mpq_class, 3> out;
-    for (std::size_t k = 0; k < 3; ++k)
-        out[k] = in_users_units(fraction(c.x[k], c.w), mesh.lattice);
-    return out;
-}
-
-double nearest(const mpq_class& v) {
-    return to_rational(v.get_num(), v.get_den()).to_double() + 0.0;
-}
-
-/// The nearest double of a number that is at most `error` away from the pair.
-std::optional<double> nearest(const DoublePair& v, double error) {
-    const double slack = error + 0x1p-50 * std::fabs(v.low);
-    if (v.high + (v.low + slack) != v.high || v.high + (v.low - slack) != v.high)
-        return std::nullopt;
-    return v.high + 0.0;
-}
-
 // The sum of |n p| over the axes, which bounds errors of n . p.
 double size_of_level(const Point3d& normal, const Point3d& p) {
     return std::fabs(normal[0] * p[0]) + std::fabs(normal[1] * p[1]) + std::fabs(normal[2] * p[2]);
 }
 
 }  // namespace
-
-/// Corners of a mesh as fractions.
-struct SectionNumbers {
-    static std::array<mpq_class, 3> corner(const MeshSection& mesh, std::uint32_t v) {
-        if (mesh.is_double_[v] == 0) return exact_point(*mesh.exact_, v);
-        const Point3d& p = mesh.near_[v];
-        return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])};
-    }
-    static mpq_class level(const SliceFrame& frame, const std::array<mpq_class, 3>& p) {
-        const Point3d& n = frame.normal();
-        if (frame.is_axis()) return n[frame.along()] * p[frame.along()];
-        return mpq_class(n[0]) * p[0] + mpq_class(n[1]) * p[1] + mpq_class(n[2]) * p[2];
-    }
-};
 
 MeshSection::MeshSection(const PolygonMesh& mesh, const SliceFrame& frame)
     : frame_(frame), near_(mesh.points), is_double_(mesh.points.size(), 1) {
@@ -129,16 +84,14 @@ std::array<double, 2> MeshSection::range_of(std::uint32_t triangle) const {
 }
 
 // Along an axis the nearest double is on the same side, or in the plane.
-int MeshSection::side(std::uint32_t v, double height) const {
+int MeshSection::side_in_doubt(std::uint32_t v, double height) const {
     const double above = level_[v] - height;
     if (error_.empty()) {
-        if (level_[v] != height) return level_[v] > height ? 1 : -1;
         if (is_double_[v] != 0) return 0;
     } else if (std::fabs(above) > error_[v] + 0x1p-52 * std::fabs(height)) {
         return above > 0 ? 1 : -1;
     }
-    return sgn(mpq_class(SectionNumbers::level(frame_, SectionNumbers::corner(*this, v)) -
-                         mpq_class(height)));
+    return SectionNumbers::exact_side(*this, v, height);
 }
 
 bool MeshSection::has_face_in(const SectionPlane& plane) const {
@@ -148,6 +101,8 @@ bool MeshSection::has_face_in(const SectionPlane& plane) const {
     });
 }
 
+namespace {
+
 /// The corners of one section, by name.
 class SectionCorners {
 public:
@@ -155,7 +110,8 @@ public:
         : mesh_(mesh),
           height_(plane.height),
           in_plane_(place == MeshSection::Place::Below ? 1 : -1),
-          numbers_(2 * plane.triangles.size()) {}
+          named_(2 * plane.triangles.size()),
+          numbers_(mesh, plane.height) {}
 
     void add(const MeshSection::Triangle& t) {
         const std::array<int, 3> at{mesh_.side(t[0], height_), mesh_.side(t[1], height_),
@@ -183,7 +139,7 @@ public:
             if (place[n] == none) {
                 place[n] = static_cast<std::uint32_t>(out.corners.size());
                 out.corners.push_back(near_[n]);
-                out.is_exact = out.is_exact && is_exact(n);
+                out.is_exact = out.is_exact && numbers_.is_exact(ends_[n], near_[n]);
             }
             return place[n];
         };
@@ -223,118 +179,18 @@ private:
         std::uint32_t count_ = 0;
     };
 
-    using Ends = std::array<std::uint32_t, 2>;  // below and above; twice one that is in the plane
-    using Numbers = std::array<mpq_class, 2>;
-    struct Pairs {
-        std::array<DoublePair, 2> at;
-        double error = 0;  // of a coordinate
-    };
-
+    using Ends = SectionNumbers::Name;
     std::uint32_t number(std::uint32_t below, int side_below, std::uint32_t above, int side_above) {
         if (side_below == 0) above = below;
         if (side_above == 0) below = above;
-        const auto [n, is_new] = numbers_.find(below, above);
+        const auto [n, is_new] = named_.find(below, above);
         if (is_new) {
             ends_.push_back({below, above});
-            near_.push_back(rounded(n));
+            near_.push_back(numbers_.rounded(ends_.back()));
         }
         return n;
     }
 
-    [[nodiscard]] Numbers exact(std::uint32_t n) const {
-        const auto [below, above] = ends_[n];
-        const auto [u, v] = mesh_.frame_.axes();
-        const std::array<mpq_class, 3> a = SectionNumbers::corner(mesh_, below);
-        if (below == above) return {a[u], a[v]};
-        const std::array<mpq_class, 3> b = SectionNumbers::corner(mesh_, above);
-        const mpq_class from = SectionNumbers::level(mesh_.frame_, a);
-        const mpq_class part = (height_ - from) / (SectionNumbers::level(mesh_.frame_, b) - from);
-        return {a[u] + part * (b[u] - a[u]), a[v] + part * (b[v] - a[v])};
-    }
-    /// Whether a corner is where its doubles are.
-    [[nodiscard]] bool is_exact(std::uint32_t n) const {
-        const auto [below, above] = ends_[n];
-        if (below == above) return mesh_.is_double_[below] != 0;
-        if (const auto p = in_pairs(ends_[n]))
-            for (const DoublePair& c : p->at)
-                if (std::fabs(c.low) > p->error) return false;
-        const Numbers p = exact(n);
-        return p[0] == near_[n][0] && p[1] == near_[n][1];
-    }
-
-    // Weights of both ends are between 0 and 1, and each step is off by less than 2^-99 of what it
-    // computes. Nothing where an end is no double, or near underflow.
-    [[nodiscard]] std::optional<Pairs> in_pairs(const Ends& ends) const {
-        const auto [below, above] = ends;
-        if (mesh_.is_double_[below] == 0 || mesh_.is_double_[above] == 0) return std::nullopt;
-        const auto axes = mesh_.frame_.axes();
-        const Point2d a{mesh_.near_[below][axes[0]], mesh_.near_[below][axes[1]]};
-        const Point2d b{mesh_.near_[above][axes[0]], mesh_.near_[above][axes[1]]};
-        if (below == above) return Pairs{{{{a[0], 0}, {a[1], 0}}}, 0};
-        if (!mesh_.frame_.is_axis()) return std::nullopt;
-        const DoublePair of_a = two_sum(mesh_.level_[above], -height_);
-        const DoublePair of_b = two_sum(height_, -mesh_.level_[below]);
-        const DoublePair both = two_sum(mesh_.level_[above], -mesh_.level_[below]);
-        if (both.high < 0x1p-100) return std::nullopt;
-        Pairs out;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const DoublePair sum =
-                detail::add(multiply({a[k], 0}, of_a), multiply({b[k], 0}, of_b));
-            out.at[k] = divide(sum, both);
-            out.error = std::max(out.error, 0x1p-94 * (std::fabs(a[k]) + std::fabs(b[k])));
-        }
-        out.error += 0x1p-900;
-        return out;
-    }
-    [[nodiscard]] Point2d rounded(std::uint32_t n) const {
-        const auto [below, above] = ends_[n];
-        const auto [u, v] = mesh_.frame_.axes();
-        if (below == above) return {mesh_.near_[below][u] + 0.0, mesh_.near_[below][v] + 0.0};
-        if (const auto p = in_pairs(ends_[n])) {
-            const auto x = nearest(p->at[0], p->error);
-            const auto y = nearest(p->at[1], p->error);
-            if (x && y) return {*x, *y};
-        }
-        const Numbers p = exact(n);
-        return {nearest(p[0]), nearest(p[1])};
-    }
-
-    // What products of two sides may be off by. Corners are off by 2^-53 of their size.
-    [[nodiscard]] double doubt_of(std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                                  const Point2d& u, const Point2d& v) const {
-        double size = 0;
-        for (const std::uint32_t n : {a, b, c})
-            size = std::max({size, std::fabs(near_[n][0]), std::fabs(near_[n][1])});
-        return 0x1p-48 * size *
-               (std::fabs(u[0]) + std::fabs(u[1]) + std::fabs(v[0]) + std::fabs(v[1]));
-    }
-    // Whether corners surely turn at b.
-    [[nodiscard]] bool turns(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        const Point2d u{near_[b][0] - near_[a][0], near_[b][1] - near_[a][1]};
-        const Point2d v{near_[c][0] - near_[b][0], near_[c][1] - near_[b][1]};
-        return std::fabs(u[0] * v[1] - u[1] * v[0]) > doubt_of(a, b, c, u, v);
-    }
-    // The same by pairs: differences are off by 2 e and 2^-100 of the size, products by 2^-99.
-    [[nodiscard]] bool turns_by_pairs(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        const auto p = in_pairs(ends_[a]);
-        const auto q = in_pairs(ends_[b]);
-        const auto r = in_pairs(ends_[c]);
-        if (!p || !q || !r) return false;
-        double size = 0;
-        for (const Pairs& at : {*p, *q, *r})
-            size = std::max({size, std::fabs(at.at[0].high), std::fabs(at.at[1].high)});
-        std::array<DoublePair, 2> u;
-        std::array<DoublePair, 2> v;
-        double lengths = 0;
-        for (std::size_t k = 0; k < 2; ++k) {
-            u[k] = subtract(q->at[k], p->at[k]);
-            v[k] = subtract(r->at[k], q->at[k]);
-            lengths += std::fabs(u[k].high) + std::fabs(v[k].high);
-        }
-        const double e = p->error + q->error + r->error + 0x1p-98 * size;
-        const DoublePair turn = subtract(multiply(u[0], v[1]), multiply(u[1], v[0]));
-        return std::fabs(turn.high) > 16 * e * (lengths + 16 * e) + 0x1p-96 * lengths * lengths;
-    }
     // Within an edge, sides are on one line where the triangles beside it are in one plane, and
     // nowhere else: the edge goes through the section's plane. Nothing where corners are no lattice
     // points, or doubles do not show whether the second side goes on or comes back.
@@ -342,8 +198,8 @@ private:
         std::uint32_t a, std::uint32_t b, std::uint32_t c, const MeshSection::Triangle& before,
         const MeshSection::Triangle& after) const {
         const auto [below, above] = ends_[b];
-        if (below == above || mesh_.exact_ == nullptr) return std::nullopt;
-        const auto& points = mesh_.exact_->points;
+        if (below == above || mesh_.exact_mesh() == nullptr) return std::nullopt;
+        const auto& points = mesh_.exact_mesh()->points;
         std::uint32_t apex = none;
         for (const std::uint32_t v : after)
             if (v != below && v != above) apex = v;
@@ -352,24 +208,16 @@ private:
         const Plane plane = Plane::through(points[before[0]].lattice(), points[before[1]].lattice(),
                                            points[before[2]].lattice());
         if (side_of(points[apex].lattice(), plane) != Side::On) return false;
-        const Point2d u{near_[b][0] - near_[a][0], near_[b][1] - near_[a][1]};
-        const Point2d v{near_[c][0] - near_[b][0], near_[c][1] - near_[b][1]};
-        const double along = u[0] * v[0] + u[1] * v[1];
-        if (std::fabs(along) <= doubt_of(a, b, c, u, v)) return std::nullopt;
+        const int along = sure_direction(near_[a], near_[b], near_[c]);
+        if (along == 0) return std::nullopt;
         return along > 0;
     }
     [[nodiscard]] bool goes_straight(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                      const MeshSection::Triangle& before,
                                      const MeshSection::Triangle& after) const {
-        if (turns(a, b, c)) return false;
+        if (surely_turns(near_[a], near_[b], near_[c])) return false;
         if (const auto known = goes_straight_by_triangles(a, b, c, before, after)) return *known;
-        if (turns_by_pairs(a, b, c)) return false;
-        const Numbers p = exact(a);
-        const Numbers q = exact(b);
-        const Numbers r = exact(c);
-        const Numbers s{q[0] - p[0], q[1] - p[1]};
-        const Numbers t{r[0] - q[0], r[1] - q[1]};
-        return s[0] * t[1] == s[1] * t[0] && s[0] * t[0] + s[1] * t[1] > 0;
+        return numbers_.goes_straight(ends_[a], ends_[b], ends_[c]);
     }
 
     // Where one side comes and one goes on in its direction, both become one.
@@ -401,7 +249,8 @@ private:
     const MeshSection& mesh_;
     double height_;
     int in_plane_;  // the side of what is in the plane
-    PairNumbers numbers_;
+    PairNumbers named_;
+    SectionNumbers numbers_;
     std::vector<Ends> ends_;
     std::vector<Point2d> near_;
     std::vector<std::array<std::uint32_t, 2>> sides_;
@@ -409,6 +258,8 @@ private:
     std::vector<const MeshSection::Triangle*> first_of_;
     std::vector<const MeshSection::Triangle*> last_of_;
 };
+
+}  // namespace
 
 SectionSides MeshSection::right(const SectionPlane& plane, Place place) const {
     check_stop(plane.triangles.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <trisect/bsp/modelling/section_prism.h>
+#include <trisect/bsp/modelling/sections/section_prism.h>
 
 #include <utility>
 

@@ -6,7 +6,7 @@
 
 #include <trisect/brep/exact_mesh.h>
 #include <trisect/bsp/expression.h>
-#include <trisect/bsp/modelling/mesh_section.h>
+#include <trisect/bsp/modelling/sections/mesh_section.h>
 #include <trisect/bsp/modelling/slices.h>
 #include <trisect/bsp/solid.h>
 

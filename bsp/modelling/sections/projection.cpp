@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include <trisect/bsp/modelling/mesh_section.h>
 #include <trisect/bsp/modelling/pieces/plane_triangles.h>
-#include <trisect/bsp/modelling/section_prism.h>
+#include <trisect/bsp/modelling/sections/mesh_section.h>
+#include <trisect/bsp/modelling/sections/section_prism.h>
 
 namespace trisect {
 namespace {

@@ -55,13 +55,27 @@ public:
     enum class Place : std::uint8_t { Below, Above };
     [[nodiscard]] SectionSides right(const SectionPlane& plane, Place place) const;
 
-private:
-    friend class SectionCorners;
-    friend struct SectionNumbers;
+    [[nodiscard]] const SliceFrame& frame() const { return frame_; }
+    [[nodiscard]] std::uint32_t point_count() const {
+        return static_cast<std::uint32_t>(near_.size());
+    }
+    [[nodiscard]] const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
+    /// A point, rounded where it is no double.
+    [[nodiscard]] const Point3d& near(std::uint32_t v) const { return near_[v]; }
+    [[nodiscard]] bool is_double(std::uint32_t v) const { return is_double_[v] != 0; }
+    /// Normal . near(v); along an axis exact.
+    [[nodiscard]] double level(std::uint32_t v) const { return level_[v]; }
+    /// Null where all points are doubles of a mesh of doubles.
+    [[nodiscard]] const ExactMesh* exact_mesh() const { return exact_; }
+    /// -1 below, 0 on, 1 above the plane at a height. Exact.
+    [[nodiscard]] int side(std::uint32_t v, double height) const {
+        if (error_.empty() && level_[v] != height) return level_[v] > height ? 1 : -1;
+        return side_in_doubt(v, height);
+    }
 
+private:
     void find_levels();
-    /// -1 below, 0 on, 1 above the plane at a height.
-    [[nodiscard]] int side(std::uint32_t v, double height) const;
+    [[nodiscard]] int side_in_doubt(std::uint32_t v, double height) const;
 
     SliceFrame frame_;
     std::vector<Triangle> triangles_;
