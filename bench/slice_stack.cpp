@@ -158,11 +158,11 @@ void add_row(const std::string& file) {
                 mesh.face_count(), volume, (sum - volume) / volume);
     if (corners.size() <= 20000)
         std::printf("%.1e", (volume_by_simpson(solid, corners) - volume) / volume);
-    std::printf(" | %d | %zu | %.2f | %.1f | ", equal_sections(solid, layers), sides, one_walk,
+    std::printf(" | %d | %zu | %.4f | %.2f | ", equal_sections(solid, layers), sides, one_walk,
                 one_by_one);
 #ifdef TRISECT_BENCH_MANIFOLD
     const auto [seconds, areas] = by_manifold(mesh, many);
-    std::printf("%.2f | %.1f |\n", seconds, one_walk / seconds);
+    std::printf("%.4f | %.1f |\n", seconds, one_walk / seconds);
     static_cast<void>(areas);
 #else
     std::printf("| |\n");

@@ -69,10 +69,11 @@ struct SliceCounters {
 ///
 /// The boundary is assembled once, and its facets are given to the planes that they meet in one
 /// walk: O(n log m + k log k) for n facets, m heights and the k sides of all slices, but for the
-/// assembly. Slices are traced on several threads, and do not depend on how many there are; on one
-/// where a StopScope limits work or memory. Heights outside the solid, and the empty set, have
-/// empty slices. \throw UnsupportedError for an unbounded set, UsageError for a height that is not
-/// finite, LimitError beyond 2^31 sides, what evaluate() throws
+/// assembly, and for layers that are arranged (SliceCounters). Slices are traced on several
+/// threads, and do not depend on how many there are; on one where a StopScope limits work or
+/// memory. Heights outside the solid, and the empty set, have empty slices. \throw UnsupportedError
+/// for an unbounded set, UsageError for a height that is not finite, LimitError beyond 2^31 sides,
+/// what evaluate() throws
 [[nodiscard]] std::vector<Slice> slices(const Solid& solid, std::span<const double> heights,
                                         const SliceOptions& options = {});
 [[nodiscard]] std::vector<Slice> slices(const Solid& solid, std::span<const double> heights,

@@ -94,8 +94,10 @@ TRISECT_WIDE_CLONES void find_corners(FourCorners* fours, std::size_t n, double 
             take_magnitude(at.low, size_low);
             const Reals error = 0x1p-94 * (size_a + size_b) + 0x1p-900;
             const Reals slack = error + 0x1p-50 * size_low;
-            is_found &=
-                (at.high + (at.low + slack) == at.high) & (at.high + (at.low - slack) == at.high);
+            // Where both ends are equal nothing is rounded, be it 0.
+            is_found &= ((at.high + (at.low + slack) == at.high) &
+                         (at.high + (at.low - slack) == at.high)) |
+                        (a == b);
             was_rounded |= size_low > error;
             std::memcpy(&four->at[k], &at.high, sizeof(at.high));
         }

@@ -14,7 +14,7 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t no_side = ~std::uint32_t{0};
 
 /// 1 where d is surely off the plane of the other three: doubles that were rounded once.
 bool is_surely_off(const Point3d& a, const Point3d& b, const Point3d& c, const Point3d& d) {
@@ -83,7 +83,7 @@ void SectionEdges::number_edges() {
             const std::uint32_t to = of_v[first].to;
             ends_.push_back(mesh_.level(v) <= mesh_.level(to) ? std::array{v, to}
                                                               : std::array{to, v});
-            sides_.push_back({none, none});
+            sides_.push_back({no_side, no_side});
             if (i - first != 2) continue;
             const std::uint32_t s = of_v[first].number;
             const std::uint32_t t = of_v[first + 1].number;
@@ -101,7 +101,7 @@ SectionEdges::Bend SectionEdges::find_bend(std::uint32_t e) const {
 
 SectionEdges::Bend SectionEdges::bend_of(std::uint32_t e) const {
     const auto [s, t] = sides_[e];
-    if (s == none) return Bend::Open;
+    if (s == no_side) return Bend::Open;
     const auto [from, to] = ends_[e];
     const std::uint32_t p = apex(s);
     const std::uint32_t q = apex(t);
