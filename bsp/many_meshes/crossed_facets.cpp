@@ -164,12 +164,12 @@ CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell)
     for (std::size_t k = 0; k < 3; ++k) {
         const double low = std::max(all.lo[k], cell.bounds.lo[k]);
         const double high = std::min(all.hi[k], cell.bounds.hi[k]);
-        Splitter s{k, low + (high - low) / 2, 0};
+        Splitter s{k, low + (high - low) / 2, 0, {}};
         double below = 1;
         double above = 1;
-        for (const auto& items : cell.items) {
-            std::size_t first = 0;
-            std::size_t second = 0;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const std::vector<Item>& items = cell.items[i];
+            auto& [first, second] = s.counts[i];
             for (const Item& item : items) {
                 first += item.box.lo[k] < s.at ? 1 : 0;
                 second += item.box.hi[k] >= s.at ? 1 : 0;
@@ -184,7 +184,7 @@ CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell)
 }
 
 bool CrossedFacetsFinder::divide(Cell& cell, const Splitter& splitter) {
-    const auto [axis, at, part_left] = splitter;
+    const auto& [axis, at, part_left, counts] = splitter;
     std::array<Cell, 2> children;
     for (Cell& c : children) {
         c.bounds = cell.bounds;
@@ -192,7 +192,7 @@ bool CrossedFacetsFinder::divide(Cell& cell, const Splitter& splitter) {
     }
     children[0].bounds.hi[axis] = children[1].bounds.lo[axis] = at;
     for (std::size_t i = 0; i < 2; ++i) {
-        for (Cell& c : children) c.items[i].reserve(cell.items[i].size());
+        for (std::size_t k = 0; k < 2; ++k) children[k].items[i].reserve(counts[i][k]);
         for (const Item& item : cell.items[i]) {
             if (item.box.lo[axis] < at) children[0].items[i].push_back(item);
             if (item.box.hi[axis] >= at) children[1].items[i].push_back(item);

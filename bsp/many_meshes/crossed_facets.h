@@ -55,6 +55,7 @@ private:
         std::size_t axis = 0;
         double at = 0;
         double part_left = 1;  ///< of the pairs, on both sides together
+        std::array<std::array<std::size_t, 2>, 2> counts{};  ///< of items below and above, by solid
     };
     [[nodiscard]] bool solve(Cell& cell);
     [[nodiscard]] bool leave_out(Cell& cell) const;

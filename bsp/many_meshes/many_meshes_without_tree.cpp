@@ -708,6 +708,10 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
     meshes.nested = nested ? &*nested : nullptr;
     meshes.operands = &*operands;
     Box all;
+    std::size_t facets = 0;
+    for (const auto& s : solids) facets += source_of(*s).facet_count();
+    meshes.slots.reserve(facets);
+    meshes.planes.reserve(facets);
     for (const auto& s : solids) {
         const auto slot = static_cast<std::uint32_t>(meshes.sources.size());
         meshes.sources.push_back(&source_of(*s));

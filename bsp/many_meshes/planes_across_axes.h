@@ -5,6 +5,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +25,8 @@ public:
         std::uint8_t axis = 0;
     };
 
+    /// For so many facets.
+    void reserve(std::size_t facets) { planes_.reserve(facets); }
     /// The facets of one mesh after those of another one. O(n)
     void add(const LatticeMesh& mesh) {
         for (const auto& t : mesh.triangles)

@@ -28,6 +28,45 @@ namespace trisect::detail {
 
 namespace {
 
+// Sides of points and planes, all in one word each: there are many, and a map has three times as
+// much for one.
+class KnownSides {
+public:
+    [[nodiscard]] std::optional<int> find(PointId point, PlaneId plane) const {
+        if (slots_.empty()) return std::nullopt;
+        const std::uint64_t slot = slots_[place_of(key_of(point, plane))];
+        if (slot == 0) return std::nullopt;
+        return static_cast<int>(slot & 3U) - 2;
+    }
+    void insert(PointId point, PlaneId plane, int side) {
+        if (2 * (count_ + 1) > slots_.size()) grow();
+        const std::uint64_t key = key_of(point, plane);
+        slots_[place_of(key)] = key | static_cast<std::uint64_t>(side + 2);
+        ++count_;
+    }
+
+private:
+    [[nodiscard]] static std::uint64_t key_of(PointId point, PlaneId plane) {
+        return static_cast<std::uint64_t>(point) << 33U | static_cast<std::uint64_t>(plane) << 2U;
+    }
+    // Of that key, or where it would be.
+    [[nodiscard]] std::size_t place_of(std::uint64_t key) const {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t i = static_cast<std::size_t>(mix64(key)) & mask;
+        while (slots_[i] != 0 && (slots_[i] >> 2U) << 2U != key) i = (i + 1) & mask;
+        return i;
+    }
+    void grow() {
+        std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * slots_.size()), 0);
+        old.swap(slots_);
+        for (const std::uint64_t slot : old)
+            if (slot != 0) slots_[place_of((slot >> 2U) << 2U)] = slot;
+    }
+
+    std::vector<std::uint64_t> slots_;  // 0: none; else the side and 2 in the last bits
+    std::size_t count_ = 0;
+};
+
 // Edges in special position, by segment; and facets that may have one of them inside.
 class LackingCrossings {
 public:
@@ -214,10 +253,9 @@ private:
         const Workbench& bench = parts_.bench;
         if (const auto s = filtered_side(bench.approximation(point), bench.plane_at(plane)))
             return sign_of(*s);
-        const Key128 key{static_cast<std::uint64_t>(point), static_cast<std::uint64_t>(plane)};
-        if (const std::int32_t known = sides_.find(key); known >= 0) return known - 1;
+        if (const auto known = sides_.find(point, plane)) return *known;
         const int exact = bench.side(point, plane);
-        sides_.insert(key, exact + 1);
+        sides_.insert(point, plane, exact);
         return exact;
     }
     // Through the segment, another plane than this one.
@@ -342,7 +380,7 @@ private:
     std::vector<std::int32_t> ending_;  // facets that end there
     std::vector<std::int32_t> others_;
     mutable FlatMap same_planes_;  // of two classes
-    mutable FlatMap sides_;        // of points and planes, and 1
+    mutable KnownSides sides_;
 };
 
 }  // namespace
