@@ -45,7 +45,7 @@ public:
           finder_(meshes, options, special_),
           segments_(meshes, exact_) {}
 
-    /// Takes vertices from them.
+    /// Takes what the first one has.
     [[nodiscard]] bool run(OutlinedSolid& first, OutlinedSolid& second, EvaluateStats& stats) {
         start(first, second);
         if (!find_cuts(stats)) return false;
@@ -577,8 +577,7 @@ void CommonPart::Steps::keep_parts(std::size_t solid) {
 
 namespace {
 
-// Each is far out of the other one.
-// Into either of them.
+// Each is far out of the other one. Takes what either has.
 OutlinedSolid common_of_apart(OutlinedSolid& first, OutlinedSolid& second, SpareOutlines& spare) {
     if (first.open_far_out && second.open_far_out) {
         spare.make_room(first, second.facets.size(), second.edges.size(), second.vertices.size());

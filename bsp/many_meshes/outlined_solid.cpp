@@ -20,9 +20,11 @@ OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot, bool o
                             std::size_t room, SpareOutlines& spare) {
     const LatticeMesh& mesh = meshes.sources[slot]->mesh();
     const std::uint32_t first = meshes.operands->operands[slot].first;
-    // What is reserved and not used takes no memory. Facets that are cut get more edges.
+    // What is reserved and not used takes no memory, but addresses. Facets that are cut get more
+    // edges.
+    constexpr std::size_t most_reserved = std::size_t{1} << 18U;
     const std::size_t own = mesh.triangles.size();
-    const std::size_t more = std::max(room, own) - own;
+    const std::size_t more = std::min(std::max(room, own) - own, most_reserved);
     OutlinedSolid out =
         spare.take(own + more, 3 * own + 6 * more, mesh.points.size() + more + more / 2);
     out.open_far_out = open_far_out;
