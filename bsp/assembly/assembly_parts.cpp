@@ -107,6 +107,11 @@ private:
     void add_outlined_edges(const UndividedMeshes& meshes);
     void number_facets();
     void reserve_names() { out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size()); }
+    // In special position most points are corners, and nothing is found by name (traced_facets.h).
+    void reserve_names(const Crossings& crossings) {
+        if (crossings.special.empty()) return reserve_names();
+        out_.bench.reserve_unnamed(4 * out_.facets.size(), out_.facets.size());
+    }
     void make_parts(AssembledLeaf& leaf);
     void make_list_parts(const AssembledLeaf& leaf);
     void make_part(const PolygonRef& ref, const AssembledLeaf& leaf, std::int32_t facet);
@@ -180,7 +185,7 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
     if (meshes.outlined != nullptr) {
         add_outlined_edges(meshes);
     } else {
-        reserve_names();
+        reserve_names(*meshes.crossings);
         for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get())
             trace_facets(*m->crossings, out_, edges_, threads_);
     }

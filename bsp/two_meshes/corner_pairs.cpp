@@ -24,15 +24,7 @@ namespace trisect::detail {
 namespace {
 
 // By corner of the one facet: the same of the other one, or -1.
-using Matches = std::array<int, 3>;
-
-Matches matches_of(const FilteredFacet& a, const FilteredFacet& b) {
-    Matches out{-1, -1, -1};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            if (a.corners[i] == b.corners[j]) out[i] = static_cast<int>(j);
-    return out;
-}
+using Matches = std::array<std::int8_t, 3>;
 
 const LatticePoint& lattice_corner(const FilteredFacet& f, std::size_t i) {
     return f.ref.source->corner(f.ref.facet, static_cast<int>(i));
@@ -141,31 +133,28 @@ struct NumberedCorners {
 class CornerPair {
 public:
     CornerPair(FilteredFacets& facets, LeafIndex first, LeafIndex second,
-               const InfinitesimalShift& shift)
+               const CommonCorners& common, const InfinitesimalShift& shift)
         : facets_(facets),
           a_(facets[first]),
           b_(facets[second]),
           plane_a_(facets.plane(first)),
           plane_b_(facets.plane(second)),
-          of_a_matches_(matches_of(a_, b_)) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            moves_[i] = in_doubles(shift.moves->of(lattice_corner(b_, i)));
-            if (of_a_matches_[i] < 0) continue;
-            of_b_matches_[static_cast<std::size_t>(of_a_matches_[i])] = static_cast<int>(i);
-            ++common_;
-        }
+          moves_(*shift.moves),
+          of_a_matches_(common.of_first) {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (const std::int8_t j = of_a_matches_[i]; j >= 0)
+                of_b_matches_[static_cast<std::size_t>(j)] = static_cast<std::int8_t>(i);
     }
 
     [[nodiscard]] std::optional<ShiftedPair> relate() {
-        if (common_ == 0 || common_ == 3) return std::nullopt;
         ShiftedPair out;
         out.touches = true;
         if (!of_b_.set(plane_a_, b_, of_b_matches_,
-                       [&](std::size_t i) { return along_normal(plane_a_, moves_[i]); }))
+                       [&](std::size_t i) { return along_normal(plane_a_, move_of(i)); }))
             return std::nullopt;
         if (of_b_.is_off()) return out;
         if (!of_a_.set(plane_b_, a_, of_a_matches_, [&](std::size_t i) {
-                return -along_normal(plane_b_, moves_[static_cast<std::size_t>(of_a_matches_[i])]);
+                return -along_normal(plane_b_, move_of(static_cast<std::size_t>(of_a_matches_[i])));
             }))
             return std::nullopt;
         if (of_a_.is_off()) return out;
@@ -173,6 +162,10 @@ public:
     }
 
 private:
+    [[nodiscard]] Vector3 move_of(std::size_t corner) const {
+        return in_doubles(moves_.of(lattice_corner(b_, corner)));
+    }
+
     [[nodiscard]] std::optional<ShiftedPair> relate_edges(ShiftedPair& out) {
         const std::size_t lonely_a = of_a_.lonely();
         const std::size_t lonely_b = of_b_.lonely();
@@ -183,8 +176,7 @@ private:
         bool touches = false;
         const int first = order(p, q, 1, 1, touches);
         if (first == 0) return std::nullopt;
-        // What parts them without the moves shows that they have nothing in common but corners
-        // that are no ends.
+        // As there: what parts them without the moves parts them with a gap.
         if (first < 0) return apart(out, touches);
         touches = false;
         const int second = order(p, q, 2, 2, touches);
@@ -214,13 +206,13 @@ private:
     [[nodiscard]] int order(const NumberedCorners& p, const NumberedCorners& q, std::size_t i,
                             std::size_t j, bool& touches) const {
         const auto is_common = [&](std::size_t m, std::size_t n) {
-            return of_a_matches_[p.corner[m]] == static_cast<int>(q.corner[n]);
+            return of_a_matches_[p.corner[m]] == static_cast<std::int8_t>(q.corner[n]);
         };
         if (!is_common(0, 0) && !is_common(0, j) && !is_common(i, 0) && !is_common(i, j))
             return filtered_orientation(p[0], p[i], q[0], q[j]);
         touches = true;
-        const Vector3& u0 = moves_[q.corner[0]];
-        const Vector3& uj = moves_[q.corner[j]];
+        const Vector3 u0 = move_of(q.corner[0]);
+        const Vector3 uj = move_of(q.corner[j]);
         Sum sum;
         Product(minus(p[0], q[j]), minus(p[i], q[j])).add_to(sum, minus(u0, uj));
         Product(minus(p[i], p[0]), minus(q[j], q[0])).add_to(sum, uj);
@@ -257,26 +249,20 @@ private:
     const FilteredFacet& b_;
     const FilteredPlane& plane_a_;
     const FilteredPlane& plane_b_;
+    const CornerMoves& moves_;  // of the second facet's corners
     Matches of_a_matches_;
     Matches of_b_matches_{-1, -1, -1};
-    int common_ = 0;
-    std::array<Vector3, 3> moves_{};  // of the second facet's corners
     MovedSides of_a_;
     MovedSides of_b_;
 };
 
 }  // namespace
 
-const LatticePoint* common_corner(const FilteredFacet& first, const FilteredFacet& second) {
-    for (std::size_t i = 0; i < 3; ++i)
-        for (const Vector3& c : second.corners)
-            if (first.corners[i] == c) return &lattice_corner(first, i);
-    return nullptr;
-}
-
 std::optional<ShiftedPair> relate_at_corners(FilteredFacets& facets, LeafIndex first,
-                                             LeafIndex second, const InfinitesimalShift& shift) {
-    return CornerPair(facets, first, second, shift).relate();
+                                             LeafIndex second, const CommonCorners& common,
+                                             const InfinitesimalShift& shift) {
+    if (common.count == 0 || common.count == 3) return std::nullopt;
+    return CornerPair(facets, first, second, common, shift).relate();
 }
 
 }  // namespace trisect::detail

@@ -21,6 +21,7 @@
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
+#include <trisect/bsp/two_meshes/corner_pairs.h>
 #include <trisect/bsp/two_meshes/facet_clip.h>
 #include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/support/deep_recursion.h>
@@ -117,7 +118,10 @@ private:
     [[nodiscard]] const FilteredFacet& item_of(std::uint64_t e) const {
         return facets_[static_cast<LeafIndex>(static_cast<std::uint32_t>(e))];
     }
-    void decide(LeafIndex first, LeafIndex second);
+    void decide(LeafIndex first, LeafIndex second, const Cell& cell);
+    [[nodiscard]] bool has_corner(const Cell& cell, const FilteredFacet& f, std::size_t i) const;
+    [[nodiscard]] ShiftedPair relate(LeafIndex first, LeafIndex second,
+                                     const CommonCorners& common);
     [[nodiscard]] bool is_special(std::size_t operand, const PolygonRef& facet) const {
         const std::vector<std::uint8_t>& marks = is_special_[operand];
         return !marks.empty() && marks[facet.facet] != 0;
@@ -387,7 +391,7 @@ void PairFinder::compare(const CellTask& task) {
     leave_out_planes();
     pairs_.relate_all_but(doubtful_, facets_, stats_);
     pairs_.add_to(crossings_, facets_);
-    for (const auto& [a, b] : doubtful_) decide(a, b);
+    for (const auto& [a, b] : doubtful_) decide(a, b, task.cell);
 }
 
 FacetCorners corners_of(const PolygonRef& ref) {
@@ -612,12 +616,29 @@ void PairFinder::draw_in_boxes(const CellTask& task) {
         }
 }
 
-// A pair that doubles leave open.
-void PairFinder::decide(LeafIndex first, LeafIndex second) {
+// Whether a corner lies in the cell that is looked at.
+bool PairFinder::has_corner(const Cell& cell, const FilteredFacet& f, std::size_t i) const {
+    return facets_.is_whole()
+               ? facets_.in_cell(f.corners[i])
+               : cell.contains(Box::of(f.ref.source->corner(f.ref.facet, static_cast<int>(i))));
+}
+
+ShiftedPair PairFinder::relate(LeafIndex first, LeafIndex second, const CommonCorners& common) {
+    const InfinitesimalShift& shift = search_.operands.shift;
+    if (shift.moves != nullptr)
+        if (const auto known = relate_at_corners(facets_, first, second, common, shift))
+            return *known;
+    return relate_shifted(corners_of(facets_[first].ref), corners_of(facets_[second].ref), shift);
+}
+
+// A pair that doubles leave open. Both facets are listed in the cell of a common corner, so others
+// leave them to that.
+void PairFinder::decide(LeafIndex first, LeafIndex second, const Cell& cell) {
+    const CommonCorners common(facets_[first], facets_[second]);
+    if (common.count > 0 && !has_corner(cell, facets_[first], common.any())) return;
     const PolygonRef& a = facets_[first].ref;
     const PolygonRef& b = facets_[second].ref;
-    const InfinitesimalShift& shift = search_.operands.shift;
-    const ShiftedPair pair = relate_shifted(corners_of(a), corners_of(b), shift);
+    const ShiftedPair pair = relate(first, second, common);
     ++stats_.doubtful_pairs;
     if (pair.touches) note_special(a, b);
     if (pair.is_torn && coplanar_overlap(corners_of(a), corners_of(b)) == Overlap::Insides)

@@ -9,7 +9,9 @@
 // comes to the same: every vertex of either is where an edge pierces a facet, where three facets
 // meet, or a corner.
 //
-// A facet of which doubles cannot decide the outline is left to the pieces.
+// A facet of which doubles cannot decide the outline is left to the pieces, but of two meshes in
+// special position there are none (assembly_parts.cpp): so nothing else asks for their planes and
+// corners, which get their numbers by the numbers of facets and corners and not by their names.
 
 #include <trisect/bsp/assembly/traced/traced_facets.h>
 
@@ -37,13 +39,18 @@ constexpr std::size_t least_facets = 256;
 class Tracer {
 public:
     Tracer(const Crossings& crossings, BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
-        : crossings_(crossings), operand_of_(crossings.operands), parts_(parts), edges_(edges) {}
+        : crossings_(crossings),
+          operand_of_(crossings.operands),
+          parts_(parts),
+          edges_(edges),
+          by_number_(!crossings.special.empty() && !crossings.has_other_sides) {}
 
     void run(std::uint32_t threads) {
         find_marks();
         ends_.assign(crossings_.pairs.size(), {-1, -1});
         edges_of_.assign(crossings_.pairs.size(), {-1, -1});
-        planes_.assign(parts_.facets.size(), -1);
+        planes_.assign(by_number_ ? facet_count() : parts_.facets.size(), -1);
+        if (by_number_) corner_ids_.resize(marks_.size());
         const ParallelParts parts(crossings_.shown.size(), threads, least_facets);
         if (parts.count() == 1) {
             FacetTracing(crossings_, operand_of_, marks_)
@@ -83,13 +90,30 @@ private:
         }
     }
 
+    // All that are numbered, but for those of a last operand of which nothing is left.
+    [[nodiscard]] std::size_t facet_count() const {
+        const FacetMarks* const last = marks_.back();
+        return crossings_.operands.back().first +
+               (last == nullptr ? 0 : last->source()->facet_count());
+    }
+
+    PointId corner(std::size_t operand, std::uint32_t facet, int i) {
+        const Source* const source = marks_[operand]->source();
+        if (!by_number_) return parts_.bench.corner(source, facet, i);
+        std::vector<PointId>& known = corner_ids_[operand];
+        if (known.empty()) known.resize(source->mesh().points.size(), -1);
+        const std::uint32_t vertex = source->corner_index(facet, i);
+        if (known[vertex] < 0) known[vertex] = parts_.bench.add_corner(source, vertex);
+        return known[vertex];
+    }
+
     void add(const TracedFacet& traced) {
         traced_ = traced;
         const std::size_t operand = operand_of_(traced.number);
         const Crossings::Operand& o = crossings_.operands[operand];
         FacetMarks* const marks = marks_[operand];
         const std::uint32_t facet = traced.number - o.first;
-        add_edges(*marks, facet, o.inside_above);
+        add_edges(operand, facet, o.inside_above);
         marks->set_traced(facet, o.inside_above);
         ++parts_.stats.traced_facets;
     }
@@ -101,15 +125,14 @@ private:
         FacetMarks* const marks = marks_[operand];
         const std::uint32_t facet = number - o.first;
         if (marks == nullptr || !marks->takes_part(facet, o.inside_above)) return;
-        const Source* const source = marks->source();
         const std::int32_t worked = marks->number_of_worked(facet, o.inside_above);
-        const PlaneId edge = parts_.bench.plane(PlaneName::edge(source, facet, 0));
+        const PlaneId edge = first_edge_of(operand, facet);
         BoundaryFacet& f = parts_.facets[as_index(worked)];
         f.support = parts_.bench.support_of(edge);
         f.parts = 2;
         f.is_special = true;
         std::array<PointId, 3> points{};
-        for (int i = 0; i < 3; ++i) points[as_index(i)] = parts_.bench.corner(source, facet, i);
+        for (int i = 0; i < 3; ++i) points[as_index(i)] = corner(operand, facet, i);
         for (int k = 0; k < 3; ++k) {
             const int i = o.inside_above ? 2 - k : k;
             PointId from = points[as_index(i)];
@@ -121,8 +144,10 @@ private:
         ++parts_.stats.traced_facets;
     }
 
-    void add_edges(FacetMarks& marks, std::uint32_t facet, bool flipped) {
+    void add_edges(std::size_t operand, std::uint32_t facet, bool flipped) {
         if (traced_.edges.empty()) return;
+        const FacetMarks& marks = *marks_[operand];
+        operand_ = operand;
         ref_ = {marks.source(), nullptr, facet, false, false};
         own_ = edge_of(traced_.segments[0].pair, traced_.segments[0].side);
         own_support_ = support_of(traced_.segments[0].pair, traced_.segments[0].side);
@@ -154,7 +179,7 @@ private:
         switch (p.kind) {
             case OutlinePoint::Kind::Corner: {
                 PointId& point = corners_[static_cast<std::size_t>(p.which)];
-                if (point < 0) point = parts_.bench.corner(ref_.source, ref_.facet, p.which);
+                if (point < 0) point = corner(operand_, ref_.facet, p.which);
                 return point;
             }
             case OutlinePoint::Kind::End:
@@ -201,10 +226,10 @@ private:
         const FacetCrossing& c = crossings_.pairs[pair];
         const std::size_t side = c.ends[k].of_second ? 1 : 0;
         const std::size_t operand = operand_of_(c.facets[side]);
-        const PolygonRef ref{marks_[operand]->source(), nullptr,
-                             c.facets[side] - crossings_.operands[operand].first, false, false};
+        const std::uint32_t facet = c.facets[side] - crossings_.operands[operand].first;
+        if (c.ends[k].corner >= 0) return corner(operand, facet, c.ends[k].corner);
+        const PolygonRef ref{marks_[operand]->source(), nullptr, facet, false, false};
         Workbench& bench = parts_.bench;
-        if (c.ends[k].corner >= 0) return bench.corner(ref.source, ref.facet, c.ends[k].corner);
         const PlaneId first = edge_of(pair, side);
         return bench.vertex(ref, bench.support_of(first), first + c.ends[k].edge,
                             support_of(pair, 1 - side), c.ends[k].at);
@@ -223,9 +248,17 @@ private:
         if (plane >= 0) return plane;
         const std::uint32_t number = crossings_.pairs[pair].facets[side];
         const std::size_t operand = operand_of_(number);
+        return plane = first_edge_of(operand, number - crossings_.operands[operand].first);
+    }
+
+    PlaneId first_edge_of(std::size_t operand, std::uint32_t facet) {
         const Crossings::Operand& o = crossings_.operands[operand];
         const FacetMarks& marks = *marks_[operand];
-        const std::uint32_t facet = number - o.first;
+        if (by_number_) {
+            PlaneId& known = planes_[o.first + facet];
+            if (known < 0) known = parts_.bench.add_facet(marks.source(), facet);
+            return known;
+        }
         PlaneId unnumbered = -1;
         PlaneId& known = marks.takes_part(facet, o.inside_above)
                              ? planes_[as_index(marks.number_of_worked(facet, o.inside_above))]
@@ -234,7 +267,7 @@ private:
             known = parts_.bench.plane(marks.source()->is_half_space()
                                            ? PlaneName::support(marks.source(), facet)
                                            : PlaneName::edge(marks.source(), facet, 0));
-        return plane = known;
+        return known;
     }
 
     const Crossings& crossings_;
@@ -244,9 +277,13 @@ private:
     std::vector<FacetMarks*> marks_;                // by operand
     std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
     std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
-    std::vector<PlaneId> planes_;                   // the same by number of the facet
+    const bool by_number_;
+    std::vector<PlaneId> planes_;  // the same by number of the facet: of the crossings where
+                                   // by_number_, else of those that are worked on
+    std::vector<std::vector<PointId>> corner_ids_;  // by operand and vertex, where by_number_
     // Of one facet:
     TracedFacet traced_;
+    std::size_t operand_ = 0;
     std::array<PointId, 3> corners_{};  // where they were requested
     std::vector<PointId> meetings_;     // of the outline, likewise
     PolygonRef ref_;

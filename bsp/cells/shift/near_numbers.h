@@ -41,6 +41,11 @@ public:
     static Bounded difference(const Bounded& a, const Bounded& b) {
         return sum(a, {-b.value, b.error});
     }
+    static Bounded product(const Bounded& a, const Bounded& b) {
+        const double v = a.value * b.value;
+        return {v, std::fabs(a.value) * b.error + a.error * (std::fabs(b.value) + b.error) +
+                       0x1p-53 * std::fabs(v)};
+    }
     static Value dot(const std::array<Area, 3>& n, const std::array<double, 3>& v) {
         Value out;
         double size = 0;

@@ -28,6 +28,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/shift/corner_derivatives.h>
+#include <trisect/bsp/cells/shift/corner_orders.h>
 #include <trisect/bsp/cells/shift/corner_passages.h>
 #include <trisect/bsp/cells/shift/near_numbers.h>
 #include <trisect/bsp/cells/shift/shift_numbers.h>
@@ -493,6 +494,9 @@ std::optional<int> passage_shifted(const LatticePoint& from, const LatticePoint&
 int order_along_shifted(const LatticePoint& from, const LatticePoint& to, bool is_second,
                         const FacetCorners& one, const FacetCorners& other,
                         const InfinitesimalShift& shift) {
+    if (shift.moves != nullptr)
+        if (const auto known = OrderAtCorner(from, to, is_second, shift).of({one, other}))
+            return *known;
     const bool whole =
         are_whole({&one, &other}) && from.is_whole() && to.is_whole() && is_whole(shift);
     if (shift.moves != nullptr)

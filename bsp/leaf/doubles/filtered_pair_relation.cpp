@@ -298,7 +298,9 @@ FilteredPairs::Relation FilteredPairs::relate(FilteredFacets& facets, LeafIndex 
     if (of_b.is_off()) return Relation::Apart;
     const CornerSides of_a(facets.plane(t), a.corners);
     if (of_a.is_off()) return Relation::Apart;
-    if (!of_a.is_sure() || !of_b.is_sure()) return relate_outlines(facets, s, t, out);
+    // Where edges are taken to be apart, relate_outlines() would look at the same values again.
+    if (!of_a.is_sure() || !of_b.is_sure())
+        return edges_apart_ ? Relation::Uncertain : relate_outlines(facets, s, t, out);
     const std::size_t lonely_a = of_a.lonely();
     const std::size_t lonely_b = of_b.lonely();
     const bool turned_a = of_b.value[lonely_b] < 0;

@@ -29,6 +29,7 @@ namespace corner_pairs_test {
 namespace {
 
 using trisect::LatticeMesh;
+using trisect::detail::CommonCorners;
 using trisect::detail::CornerMoves;
 using trisect::detail::FacetCorners;
 using trisect::detail::FilteredFacet;
@@ -102,10 +103,10 @@ Found compare(TwoMeshes& two, const InfinitesimalShift& shift) {
     FilteredFacets& facets = two.facets();
     for (LeafIndex i = 0; i < two.first_of_second(); ++i)
         for (LeafIndex j = two.first_of_second(); j < facets.size(); ++j) {
-            const auto pair = relate_at_corners(facets, i, j, shift);
-            const bool has_common = common_corner(facets[i], facets[j]) != nullptr;
-            EXPECT_TRUE(has_common || !pair);
-            if (!has_common) continue;
+            const CommonCorners common(facets[i], facets[j]);
+            const auto pair = relate_at_corners(facets, i, j, common, shift);
+            EXPECT_TRUE(common.count > 0 || !pair);
+            if (common.count == 0) continue;
             const ShiftedPair exact =
                 relate_exactly(corners_of(facets[i]), corners_of(facets[j]), shift);
             if (exact.kind == ShiftedPair::Kind::Equal) {
