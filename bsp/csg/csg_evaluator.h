@@ -103,6 +103,7 @@ private:
     [[nodiscard]] Solid minkowski(std::uint32_t n);
     [[nodiscard]] Solid offset(std::uint32_t n);
     [[nodiscard]] std::optional<PolygonMesh> turned_mesh(std::uint32_t n);
+    [[nodiscard]] std::optional<PolygonMesh> upright_mesh(std::uint32_t n);
     [[nodiscard]] std::optional<PolygonMesh> surface_at_ground(std::uint32_t n);
     [[nodiscard]] Solid projection(std::uint32_t n);
     [[nodiscard]] Expression resized(std::uint32_t n, const CsgFrame& frame);
@@ -120,12 +121,12 @@ private:
     CsgReport& report_;
     CsgKept& kept_;
     TurnedMesh last_turned_;
-    // Or of one height field.
-    struct SurfaceMesh {
+    // Or of one height field, or one group that stands upright.
+    struct KeptMesh {
         std::string key;
         PolygonMesh mesh;
     };
-    SurfaceMesh last_surface_;
+    KeptMesh last_mesh_;
     CsgNodeProgress progress_;
 };
 

@@ -2,6 +2,7 @@
 //
 // Nodes whose solids are made of the solids of their children: Minkowski sums, offsets, projections
 // and resized ones. They are made at the origin, once for equal content, and put into place.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -35,6 +36,14 @@ Point3d factors_of(const CsgArguments& in, const Bounds& box, int dimension) {
     if (dimension == 2) sizes[2] = 0;
     return resize_factors(box, {sizes[0], sizes[1], sizes[2]},
                           {follows[0], follows[1], dimension == 3 && follows[2]});
+}
+
+/// Whether axes change places and directions, and nothing else. What is rounded before that is
+/// rounded alike after it.
+bool permutes_axes(const AffineMap& map) {
+    return changes_axes(map) && std::ranges::all_of(map.rows, [](const auto& row) {
+               return row[3] == 0 && std::fabs(row[0] + row[1] + row[2]) == 1;
+           });
 }
 
 /// The triangles of a mesh under a map that reach the plane z = 0: all that its section there
@@ -185,6 +194,34 @@ std::optional<PolygonMesh> CsgEvaluator::turned_mesh(std::uint32_t n) {
     return transformed_mesh(last_turned_.mesh, map);
 }
 
+/// Shadows from several sides may be of one group. Where only axes change places, it is evaluated
+/// once, before that.
+std::optional<PolygonMesh> CsgEvaluator::upright_mesh(std::uint32_t n) {
+    AffineMap map;
+    std::vector<std::uint32_t> used = program_.used_children(n);
+    while (used.size() == 1 && program_.dimension(used[0]) == 3) {
+        n = used[0];
+        const CsgKind kind = program_.kind(n);
+        if (kind == CsgKind::Matrix)
+            map = compose(map, csg_matrix(program_.arguments(n), false));
+        else if (kind != CsgKind::Group)
+            break;
+        used = program_.used_children(n);
+    }
+    const CsgKind kind = program_.kind(n);
+    if ((kind != CsgKind::Intersection && kind != CsgKind::Difference) || !permutes_axes(map))
+        return std::nullopt;
+    std::string key = csg_key(program_, n, CsgFrame());
+    if (last_mesh_.key == key) {
+        note_found(n);
+    } else {
+        const Solid solid = solid_of(any_of({n}, 3, CsgFrame()));
+        last_mesh_ = {std::move(key), solid.to_mesh(options_.evaluate.threads)};
+    }
+    if (last_mesh_.mesh.face_count() == 0) return std::nullopt;
+    return map == AffineMap() ? last_mesh_.mesh : transformed(last_mesh_.mesh, map);
+}
+
 /// Of one height field its triangles at z = 0 will do: it never meets itself. Nothing where axes do
 /// not stay axes, so that its bottom, a polygon, stays plane.
 std::optional<PolygonMesh> CsgEvaluator::surface_at_ground(std::uint32_t n) {
@@ -202,12 +239,12 @@ std::optional<PolygonMesh> CsgEvaluator::surface_at_ground(std::uint32_t n) {
     if (map.orientation() == 0 || !changes_axes(map)) return std::nullopt;
     ++report_.leaves;
     std::string key = csg_key(program_, n, CsgFrame());
-    if (last_surface_.key != key) {
+    if (last_mesh_.key != key) {
         ++report_.meshes;
-        last_surface_ = {std::move(key), mesh_of(n)};
+        last_mesh_ = {std::move(key), mesh_of(n)};
     }
-    if (last_surface_.mesh.face_count() == 0) return std::nullopt;
-    return GroundTriangles(last_surface_.mesh, map).run();
+    if (last_mesh_.mesh.face_count() == 0) return std::nullopt;
+    return GroundTriangles(last_mesh_.mesh, map).run();
 }
 
 Solid CsgEvaluator::projection(std::uint32_t n) {
@@ -218,6 +255,8 @@ Solid CsgEvaluator::projection(std::uint32_t n) {
     if (const auto mesh = turned_mesh(n))
         return cut ? section_of_mesh(*mesh, 0, options_.evaluate)
                    : shadow_of_mesh(*mesh, options_.evaluate);
+    if (!cut)
+        if (const auto mesh = upright_mesh(n)) return shadow_of_mesh(*mesh, options_.evaluate);
     const Solid solid = solid_of(any_of(program_.node(n).children, 3, CsgFrame()));
     return cut ? solid_of_region(section(solid, 0, options_.evaluate))
                : shadow(solid, options_.evaluate);

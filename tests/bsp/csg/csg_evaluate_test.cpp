@@ -157,6 +157,27 @@ TEST(CsgEvaluate, HullsAndTurnedGroups) {
     EXPECT_EQ(report.evaluations, 2U);
 }
 
+// The same but for axes that change places and directions, mirrored ones, too.
+TEST(CsgEvaluate, ShadowsFromSeveralSidesAreOfOneEvaluation) {
+    const std::string bracket =
+        "difference() { cube([2, 3, 5]); multmatrix([[1,0,0,1],[0,1,0,-1],[0,0,1,2]])"
+        "cube([2, 2, 4]); }";
+    const auto shadow = [&](const std::string& matrix) {
+        return "linear_extrude(1) projection() multmatrix(" + matrix + ") group() " + bracket;
+    };
+    // Along each axis the bracket is behind its notch: 6 + 10 + 15.
+    CsgReport report;
+    const std::string three =
+        "linear_extrude(1) projection() " + bracket +
+        "multmatrix([[1,0,0,9],[0,1,0,0],[0,0,1,0]])" + shadow("[[0,0,1,0],[1,0,0,0],[0,1,0,0]]") +
+        "multmatrix([[1,0,0,-9],[0,1,0,0],[0,0,1,0]])" + shadow("[[0,0,-1,0],[0,1,0,0],[1,0,0,0]]");
+    EXPECT_EQ(volume_of(three, &report), "31");
+    EXPECT_EQ(report.found_again, 2U);
+    // A move is no change of axes, nor is a scale.
+    EXPECT_EQ(volume_of(shadow("[[1,0,0,0.25],[0,-1,0,0],[0,0,1,0]]")), "6");
+    EXPECT_EQ(volume_of(shadow("[[2,0,0,0],[0,0,1,0],[0,1,0,0]]")), "20");
+}
+
 TEST(CsgEvaluate, SumsOffsetsAndProjections) {
     EXPECT_EQ(volume_of("minkowski() { cube(size = [1, 2, 3]); cube(size = 1); cube(size = 2); }"),
               "120");
