@@ -9,6 +9,11 @@
 namespace trisect::detail {
 namespace {
 
+// Of a larger body each step costs as much as the union saves.
+constexpr std::size_t most_corners = 96;
+// About what each point of a hull takes.
+constexpr std::size_t sides_for_point = 16;
+
 /// The hull's corners in the order of their numbers.
 std::vector<std::uint32_t> corners_of(const std::vector<HullFacets::Facet>& facets) {
     std::vector<std::uint32_t> out;
@@ -23,7 +28,7 @@ std::vector<std::uint32_t> corners_of(const std::vector<HullFacets::Facet>& face
 ConvexBody::ConvexBody(CoverBoundary& boundary, std::span<const std::uint8_t> covered,
                        std::uint32_t seed)
     : boundary_(&boundary), covered_(covered) {
-    boundary.begin_marks();
+    boundary.begin_body();
     const auto& first = boundary.triangle(seed);
     corners_.assign(first.begin(), first.end());
     add(seed);
@@ -37,7 +42,8 @@ void ConvexBody::add(std::uint32_t triangle) {
 }
 
 bool ConvexBody::may_grow_over(std::uint32_t triangle) const {
-    return !boundary_->is_marked(triangle) && covered_[triangle] == 0 && !boundary_->is_spent();
+    return !boundary_->is_marked(triangle) && covered_[triangle] == 0 &&
+           corners_.size() < most_corners && !boundary_->is_spent(triangles_.size());
 }
 
 // Triangles in the plane of a flat body wait until it is solid. What is refused once stays so: the
@@ -68,7 +74,8 @@ bool ConvexBody::try_to_add(std::uint32_t triangle) {
     for (const std::uint32_t v : t)
         if (std::ranges::find(corners_, v) == corners_.end()) numbers.push_back(v);
     const std::span<const std::uint32_t> all(numbers);
-    if (!is_below_all(triangle, all.subspan(corners_.size()))) return false;
+    const std::span<const std::uint32_t> added = all.subspan(corners_.size());
+    if (!is_below_all(triangle, added)) return false;
     if (numbers.size() == corners_.size()) {
         add(triangle);
         return true;
@@ -76,11 +83,12 @@ bool ConvexBody::try_to_add(std::uint32_t triangle) {
     std::vector<LatticePoint> points;
     points.reserve(numbers.size());
     for (const std::uint32_t v : numbers) points.push_back(boundary_->point(v));
+    boundary_->count_sides(sides_for_point * points.size());
     Facets facets = HullFacets(points).facets();
     for (HullFacets::Facet& f : facets)
         for (std::uint32_t& v : f.corners) v = numbers[v];
     std::vector<std::uint32_t> corners = corners_of(facets);
-    if (!is_free(facets, corners)) return false;
+    if (!is_free(facets, corners, added)) return false;
     facets_ = std::move(facets);
     corners_ = std::move(corners);
     add(triangle);
@@ -95,12 +103,12 @@ PointBox ConvexBody::box_of(std::span<const std::uint32_t> corners) const {
 
 // Whether planes of the body or of triangles show that none reaches into it. Other planes could;
 // then it is refused without need.
-bool ConvexBody::is_free(const Facets& facets, std::span<const std::uint32_t> corners) {
+bool ConvexBody::is_free(const Facets& facets, std::span<const std::uint32_t> corners,
+                         std::span<const std::uint32_t> added) {
     const PointBox box = box_of(corners);
     for (std::uint32_t t = 0; t < boundary_->size(); ++t) {
         if (!boundary_->is_near(t, box)) continue;
-        const Plane& plane = boundary_->plane(t);
-        if (boundary_->are_below(corners, plane) || boundary_->are_above(corners, plane)) continue;
+        if (boundary_->has_on_one_side(t, corners, added)) continue;
         if (std::ranges::none_of(facets, [&](const HullFacets::Facet& f) {
                 return boundary_->are_above(boundary_->triangle(t), f.plane);
             }))
@@ -110,7 +118,7 @@ bool ConvexBody::is_free(const Facets& facets, std::span<const std::uint32_t> co
 }
 
 std::vector<std::uint32_t> ConvexBody::covered_triangles() {
-    if (is_flat() || boundary_->is_spent()) return triangles_;
+    if (is_flat() || boundary_->is_spent(triangles_.size())) return triangles_;
     std::vector<std::uint32_t> out = triangles_;
     const PointBox box = box_of(corners_);
     for (std::uint32_t t = 0; t < boundary_->size(); ++t)

@@ -38,7 +38,8 @@ private:
     [[nodiscard]] bool try_to_add(std::uint32_t triangle);
     [[nodiscard]] bool try_to_add_in_plane(std::uint32_t triangle, std::uint32_t from);
     [[nodiscard]] bool is_below_all(std::uint32_t triangle, std::span<const std::uint32_t> added);
-    [[nodiscard]] bool is_free(const Facets& facets, std::span<const std::uint32_t> corners);
+    [[nodiscard]] bool is_free(const Facets& facets, std::span<const std::uint32_t> corners,
+                               std::span<const std::uint32_t> added);
     [[nodiscard]] bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     [[nodiscard]] PointBox box_of(std::span<const std::uint32_t> corners) const;
     void add(std::uint32_t triangle);

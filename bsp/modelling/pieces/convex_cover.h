@@ -24,9 +24,9 @@ struct ConvexCover {
     bool fills = false;
 };
 
-/// Bodies that hold all triangles of a boundary. How many there are is no minimum. At most some ten
-/// thousand sides of points for each triangle, then single triangles are left. \pre the mesh is
-/// embedded \throw CancelledError, LimitError of StopScope
+/// Bodies that hold all triangles of a boundary. How many there are is no minimum. At most some
+/// thousands of sides of points for each triangle: bodies end growing where it would take more.
+/// \pre the mesh is embedded \throw CancelledError, LimitError of StopScope
 [[nodiscard]] ConvexCover convex_cover(const LatticeMesh& mesh, CoverSide side);
 
 }  // namespace trisect::detail

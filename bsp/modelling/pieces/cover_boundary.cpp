@@ -9,7 +9,8 @@ namespace trisect::detail {
 namespace {
 
 // What a body may cost is less than what a triangle costs in the union of all sums.
-constexpr std::size_t sides_for_triangle = 4000;
+constexpr std::size_t sides_for_triangle = 2000;
+constexpr std::size_t triangles_ahead = 8;
 constexpr std::size_t boxes_for_side = 8;
 
 struct DirectedEdge {
@@ -56,7 +57,11 @@ bool PointBox::overlaps(const PointBox& o) const {
 }
 
 CoverBoundary::CoverBoundary(const LatticeMesh& mesh, CoverSide side)
-    : mesh_(mesh), neighbours_(neighbours_in(mesh)), marks_(mesh.triangles.size(), 0) {
+    : mesh_(mesh),
+      neighbours_(neighbours_in(mesh)),
+      marks_(mesh.triangles.size(), 0),
+      has_below_(marks_),
+      has_above_(marks_) {
     planes_.reserve(mesh.triangles.size());
     boxes_.reserve(mesh.triangles.size());
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -88,8 +93,29 @@ bool CoverBoundary::are_on(std::span<const std::uint32_t> points, const Plane& p
     return std::ranges::all_of(points, [&](std::uint32_t v) { return side(v, plane) == Side::On; });
 }
 
-bool CoverBoundary::is_spent() const {
-    return sides_found_ + boxes_compared_ / boxes_for_side > sides_for_triangle * size();
+void CoverBoundary::begin_body() {
+    ++body_;
+    sides_found_ = 0;
+    boxes_compared_ = 0;
+}
+
+bool CoverBoundary::is_spent(std::size_t triangles) const {
+    return sides_found_ + boxes_compared_ / boxes_for_side >
+           sides_for_triangle * (triangles_ahead + triangles);
+}
+
+bool CoverBoundary::has_on_one_side(std::uint32_t t, std::span<const std::uint32_t> corners,
+                                    std::span<const std::uint32_t> added) {
+    if (has_below_[t] == body_ && are_below(added, planes_[t])) return true;
+    if (has_above_[t] == body_ && are_above(added, planes_[t])) return true;
+    has_below_[t] = has_above_[t] = 0;
+    if (are_below(corners, planes_[t])) {
+        has_below_[t] = body_;
+        return true;
+    }
+    if (!are_above(corners, planes_[t])) return false;
+    has_above_[t] = body_;
+    return true;
 }
 
 }  // namespace trisect::detail

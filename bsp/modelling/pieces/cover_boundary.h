@@ -51,13 +51,19 @@ public:
         ++boxes_compared_;
         return boxes_[t].overlaps(box);
     }
-    /// Whether so much was done that no body should grow any more.
-    [[nodiscard]] bool is_spent() const;
+    /// Work of another kind that takes as long.
+    void count_sides(std::size_t n) { sides_found_ += n; }
+    /// Whether so much was done for a body of so many triangles that it should not grow any more.
+    [[nodiscard]] bool is_spent(std::size_t triangles) const;
 
-    /// Marks of triangles, all of which go when they are begun anew.
-    void begin_marks() { ++mark_; }
-    void mark(std::uint32_t t) { marks_[t] = mark_; }
-    [[nodiscard]] bool is_marked(std::uint32_t t) const { return marks_[t] == mark_; }
+    /// Begins a body: what was noted and counted for the last one is gone.
+    void begin_body();
+    void mark(std::uint32_t t) { marks_[t] = body_; }
+    [[nodiscard]] bool is_marked(std::uint32_t t) const { return marks_[t] == body_; }
+    /// Whether a body is on one side of a triangle's plane; of its corners all but those that were
+    /// added last were found so before.
+    [[nodiscard]] bool has_on_one_side(std::uint32_t t, std::span<const std::uint32_t> corners,
+                                       std::span<const std::uint32_t> added);
 
 private:
     [[nodiscard]] Side side(std::uint32_t v, const Plane& plane);
@@ -67,7 +73,9 @@ private:
     std::vector<PointBox> boxes_;
     std::vector<Triangle> neighbours_;
     std::vector<std::uint32_t> marks_;
-    std::uint32_t mark_ = 0;
+    std::vector<std::uint32_t> has_below_;  // the last body of which all corners so far are there
+    std::vector<std::uint32_t> has_above_;
+    std::uint32_t body_ = 0;
     std::size_t sides_found_ = 0;
     std::size_t boxes_compared_ = 0;
 };
