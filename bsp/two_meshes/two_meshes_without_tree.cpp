@@ -44,6 +44,7 @@
 #include <trisect/bsp/two_meshes/outward_moves.h>
 #include <trisect/bsp/two_meshes/pair_search.h>
 #include <trisect/bsp/two_meshes/shift_along.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -214,10 +215,35 @@ public:
     }
 
 private:
+    // Growth about the middle takes facets that face it the wrong way, and where it serves all it
+    // costs less.
     [[nodiscard]] std::optional<FoundPairs> find_without_direction(EvaluateStats& stats) {
+        const bool is_faced = is_middle_faced();
+        if (is_faced)
+            if (auto out = find_by_corners(stats)) return out;
         if (auto out = find_growing(stats, true)) return out;
-        if (auto out = find_by_corners(stats)) return out;
+        if (!is_faced)
+            if (auto out = find_by_corners(stats)) return out;
         return find_growing(stats, false);
+    }
+
+    // Whether more than a few facets of the second mesh face the middle, by a sample.
+    [[nodiscard]] bool is_middle_faced() const {
+        constexpr std::size_t sample = 256;
+        const LatticeMesh& mesh = *two_.meshes[1];
+        const Vector3 middle = first_growth().centre.doubles();
+        const std::size_t step = std::max(near_[1].size() / sample, std::size_t{1});
+        std::size_t looked = 0;
+        std::size_t facing = 0;
+        for (std::size_t i = 0; i < near_[1].size(); i += step) {
+            const auto& t = mesh.triangles[near_[1][i]];
+            const Vector3 a = mesh.points[t[0]].doubles();
+            const Vector3 b = minus(mesh.points[t[1]].doubles(), a);
+            const Vector3 c = minus(mesh.points[t[2]].doubles(), a);
+            ++looked;
+            facing += dot(cross(b, c), minus(a, middle)) < 0 ? 1U : 0U;
+        }
+        return 8 * facing > looked;
     }
 
     // Nothing where no direction is as wanted.
