@@ -218,13 +218,21 @@ private:
     // Growth about the middle takes facets that face it the wrong way, and where it serves all it
     // costs less.
     [[nodiscard]] std::optional<FoundPairs> find_without_direction(EvaluateStats& stats) {
-        const bool is_faced = is_middle_faced();
+        const bool is_faced = is_middle_faced() && !are_mostly_equal();
         if (is_faced)
             if (auto out = find_by_corners(stats)) return out;
         if (auto out = find_growing(stats, true)) return out;
         if (!is_faced)
             if (auto out = find_by_corners(stats)) return out;
         return find_growing(stats, false);
+    }
+
+    // Then few pairs are left, and moves cost more than they do.
+    [[nodiscard]] bool are_mostly_equal() const {
+        if (!recognises_equal_) return false;
+        const EqualFacets equal(two_.meshes, near_, {operands_.operands[0], operands_.operands[1]});
+        const auto own = std::ranges::count(equal.fates[1], Fate::Own);
+        return 2 * static_cast<std::size_t>(own) < equal.fates[1].size();
     }
 
     // Whether more than a few facets of the second mesh face the middle, by a sample.
