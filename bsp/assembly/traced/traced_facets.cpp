@@ -10,7 +10,7 @@
 // meet, or a corner.
 //
 // A facet of which doubles cannot decide the outline is left to the pieces, but of two meshes in
-// special position there are none (assembly_parts.cpp): so nothing else asks for their planes and
+// special position there are none (assembly_parts.cpp): so nothing else needs their planes and
 // corners, which get their numbers by the numbers of facets and corners and not by their names.
 
 #include <trisect/bsp/assembly/traced/traced_facets.h>

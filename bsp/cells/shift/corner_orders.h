@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Orders of facets along an edge that they go through where it ends.
+// Orders of facets along an edge, at its ends.
 #pragma once
 
 #include <array>
