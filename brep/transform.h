@@ -39,7 +39,7 @@ struct AffineMap {
 [[nodiscard]] AffineMap compose(const AffineMap& second, const AffineMap& first);
 
 /// O(n). \throw UsageError for a singular map or one with entries that are not finite.
-[[nodiscard]] PolygonMesh transformed(const PolygonMesh& mesh, const AffineMap& map);
+[[nodiscard]] PolygonMesh transformed(PolygonMesh mesh, const AffineMap& map);
 
 /// Exact: the vector is in lattice units. \throw LimitError when a point leaves the lattice, or,
 /// with bits behind the point, when a coordinate would not be a double.

@@ -240,12 +240,11 @@ AffineMap compose(const AffineMap& second, const AffineMap& first) {
     return m;
 }
 
-PolygonMesh transformed(const PolygonMesh& mesh, const AffineMap& map) {
+PolygonMesh transformed(PolygonMesh mesh, const AffineMap& map) {
     require_regular(map);
-    PolygonMesh out = mesh;
-    for (Point3d& p : out.points) p = map.apply(p);
-    if (map.orientation() < 0) reverse_faces(out);
-    return out;
+    for (Point3d& p : mesh.points) p = map.apply(p);
+    if (map.orientation() < 0) reverse_faces(mesh);
+    return mesh;
 }
 
 LatticeMesh translated(const LatticeMesh& mesh, const LatticePoint& by) {

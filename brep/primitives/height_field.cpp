@@ -24,6 +24,7 @@ public:
           height_(static_cast<std::uint32_t>(grid.heights.size() / grid.columns)) {}
 
     PolygonMesh mesh() {
+        reserve();
         for (std::uint32_t y = 0; y < height_; ++y)
             for (std::uint32_t x = 0; x < width_; ++x) add_point(x, y, height(x, y));
         add_cells();
@@ -32,6 +33,14 @@ public:
     }
 
 private:
+    void reserve() {
+        const std::size_t cells = std::size_t{width_ - 1} * (height_ - 1);
+        const std::size_t border = 2 * (std::size_t{width_} + height_) - 4;
+        const std::size_t triangles = 4 * cells + 2 * border;
+        mesh_.points.reserve(grid_.heights.size() + cells + border);
+        mesh_.corners.reserve(3 * triangles + border);
+        mesh_.face_begin.reserve(triangles + 2);
+    }
     [[nodiscard]] double height(std::uint32_t x, std::uint32_t y) const {
         return grid_.heights[at(x, y)];
     }

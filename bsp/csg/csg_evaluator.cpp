@@ -256,7 +256,7 @@ Expression CsgEvaluator::turned(std::uint32_t n, const AffineMap& own, const Csg
     });
 }
 
-Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const CsgFrame& frame) {
+Solid CsgEvaluator::placed(std::uint32_t n, PolygonMesh mesh, const CsgFrame& frame) {
     if (mesh.face_count() == 0) {
         remark(n, "is empty");
         return {};
@@ -264,9 +264,8 @@ Solid CsgEvaluator::placed(std::uint32_t n, const PolygonMesh& mesh, const CsgFr
     SolidOptions options;
     options.embedding = Embedding::Check;
     return at_node(n, [&] {
-        Solid out = frame.map == AffineMap()
-                        ? Solid::from_mesh(mesh, options)
-                        : Solid::from_mesh(transformed(mesh, frame.map), options);
+        if (frame.map != AffineMap()) mesh = transformed(std::move(mesh), frame.map);
+        Solid out = Solid::from_mesh(mesh, options);
         kept_.note_color(out.source_id(), frame.color);
         return out;
     });

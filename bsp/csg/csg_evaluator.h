@@ -77,7 +77,7 @@ private:
             program_.arguments(n).fail(e.code(), e.what());
         }
     }
-    [[nodiscard]] Solid placed(std::uint32_t n, const PolygonMesh& mesh, const CsgFrame& frame);
+    [[nodiscard]] Solid placed(std::uint32_t n, PolygonMesh mesh, const CsgFrame& frame);
     [[nodiscard]] PolygonMesh mesh_of(std::uint32_t n);
     [[nodiscard]] Expression shape(std::uint32_t n, const CsgFrame& frame);
     [[nodiscard]] Expression region(std::uint32_t n, const CsgFrame& frame);
