@@ -4,16 +4,24 @@
 // convex_hull_3 and minkowski_sum_3 in rationals. The boundaries must be the same sets.
 //
 //     modelling_sets [--seed S] [--hulls N] [--sums M] [--only I]
+//     modelling_sets MESH...
+//
+// Meshes are rounded to 1,024 steps along their longest side. The sum of each and of a tetrahedron,
+// its difference and its hull are compared, as far as they do not meet themselves then and CGAL
+// takes no more than a minute.
 //
 // Prints a line for each difference, with the number that repeats it; exits with 1 if there was
 // any. Each case with CGAL is a process of its own, of a minute at most. The first N numbers are
 // hulls of two solids, the next M sums and differences of two.
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +32,12 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/convex_hull_3.h>
 
+#include <trisect/brep/import_mesh.h>
+#include <trisect/brep/io/read_mesh.h>
+#include <trisect/brep/validate/embedding.h>
 #include <trisect/bsp/modelling/hull_of_solids.h>
 #include <trisect/bsp/modelling/minkowski.h>
+#include <trisect/kernel/error.h>
 
 #include "engines/engines.h"
 #include "reference/nef_polyhedron.h"
@@ -47,6 +59,7 @@ struct Options {
     std::uint64_t hulls = 1000;
     std::uint64_t sums = 100;
     std::uint64_t only = ~std::uint64_t{0};
+    std::vector<std::string> meshes;
 };
 
 struct Counts {
@@ -115,11 +128,13 @@ Nef sum_by_cgal(const Operand& a, const Operand& b) {
 
 // Where `b` can be moved: nowhere in the sum of the surroundings of `a`, in a box, and `b` turned
 // about. That need not be in `a`, unless `b` has the origin.
-Nef difference_by_cgal(const Operand& a, const Operand& b) {
-    Nef around = reference::to_nef(reference::box({-200, -200, -200}, {200, 200, 200})) -
-                 reference::to_nef(a);
+Nef difference_by_cgal(const Operand& a, const Operand& b, std::int64_t reach) {
+    const auto cube = [](std::int64_t r) {
+        return reference::to_nef(reference::box({-r, -r, -r}, {r, r, r}));
+    };
+    Nef around = cube(2 * reach) - reference::to_nef(a);
     Nef turned = reference::to_nef(turned_about(b));
-    const Nef everywhere = reference::to_nef(reference::box({-100, -100, -100}, {100, 100, 100}));
+    const Nef everywhere = cube(reach);
     return everywhere - CGAL::minkowski_sum_3(around, turned);
 }
 
@@ -146,11 +161,83 @@ public:
         compare(
             number, "difference",
             [&] { return trisect::minkowski_difference(solids[0], solids[1]); },
-            [&] { return reference::boundary_of(difference_by_cgal(pair[0], pair[1])); });
+            [&] { return reference::boundary_of(difference_by_cgal(pair[0], pair[1], 100)); });
+    }
+
+    /// Prints a line for each mesh.
+    void run(const std::string& file) {
+        const std::optional<Operand> mesh = mesh_on_grid(file);
+        if (!mesh) {
+            std::printf("%s: not a solid without contact once rounded\n", file.c_str());
+            return;
+        }
+        const Operand tetrahedron =
+            reference::tetrahedron({-9, -7, -5}, {21, 2, 3}, {1, 19, 4}, {2, 3, 17});
+        const trisect::Solid a = engines::solid(*mesh, trisect::Embedding::Assume);
+        const trisect::Solid b = engines::solid(tetrahedron, trisect::Embedding::Assume);
+        const Counts before = counts_;
+        file_ = file;
+        const std::vector<trisect::Solid> both{a, b};
+        compare(
+            0, "hull", [&] { return trisect::hull(both); },
+            [&] {
+                return hull_by_cgal({*mesh, tetrahedron});
+            });
+        compare(
+            1, "sum", [&] { return trisect::minkowski_sum(a, b); },
+            [&] { return reference::boundary_of(sum_by_cgal(*mesh, tetrahedron)); });
+        compare(
+            2, "difference", [&] { return trisect::minkowski_difference(a, b); },
+            [&] { return reference::boundary_of(difference_by_cgal(*mesh, tetrahedron, 4096)); });
+        std::printf("%s: %zu triangles, %llu of 3 compared, %llu different; %.2f s, CGAL %.1f s\n",
+                    file.c_str(), mesh->size(),
+                    static_cast<unsigned long long>(3 - (counts_.failed - before.failed)),
+                    static_cast<unsigned long long>(counts_.different - before.different),
+                    counts_.ours - before.ours, counts_.cgal - before.cgal);
+        std::fflush(stdout);
     }
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
 private:
+    static trisect::PolygonMesh mesh_in(const std::string& file) {
+        try {
+            return trisect::read_mesh(file);
+        } catch (const trisect::Error& e) {
+            std::printf("%s\n", e.what());
+            return {};
+        }
+    }
+
+    static std::optional<Operand> mesh_on_grid(const std::string& file) {
+        const trisect::PolygonMesh mesh = mesh_in(file);
+        double lo[3]{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+        double side = 0;
+        for (const trisect::Point3d& p : mesh.points)
+            for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], p[k]);
+        for (const trisect::Point3d& p : mesh.points)
+            for (std::size_t k = 0; k < 3; ++k) side = std::max(side, p[k] - lo[k]);
+        trisect::PolygonMesh scaled = mesh;
+        for (trisect::Point3d& p : scaled.points)
+            for (std::size_t k = 0; k < 3; ++k) p[k] = std::nearbyint((p[k] - lo[k]) / side * 1024);
+        trisect::ImportOptions options;
+        options.require_closed = false;
+        options.lattice = trisect::Lattice{0};
+        const trisect::ImportedMesh imported = trisect::import_mesh(scaled, options);
+        if (!imported.report.closed || imported.report.inside_out ||
+            imported.mesh.triangles.empty() || !trisect::is_embedded(imported.mesh))
+            return std::nullopt;
+        Operand out;
+        for (const auto& t : imported.mesh.triangles) {
+            auto& triangle = out.emplace_back();
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto at = imported.mesh.points[t[i]].doubles();
+                for (std::size_t k = 0; k < 3; ++k)
+                    triangle[i][k] = static_cast<std::int64_t>(at[k]);
+            }
+        }
+        return out;
+    }
+
     template <class Ours, class Theirs>
     void compare(std::uint64_t number, const char* what, Ours&& ours, Theirs&& theirs) {
         ++counts_.results;
@@ -170,6 +257,11 @@ private:
 
     void print(std::uint64_t number, const char* what, const std::string& why) const {
         const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
+        if (!file_.empty()) {
+            std::printf("DIFFERENT %s, %s: %s\n", file_.c_str(), what, why.c_str());
+            std::fflush(stdout);
+            return;
+        }
         std::printf("DIFFERENT --seed %llu --hulls %llu --sums %llu --only %llu, %s: %s\n",
                     n(options_.seed), n(options_.hulls), n(options_.sums), n(number), what,
                     why.c_str());
@@ -178,12 +270,18 @@ private:
 
     const Options& options_;
     Counts counts_;
+    std::string file_;  ///< empty for random solids
 };
 
 bool parse(int argc, char** argv, Options& out) {
     for (int i = 1; i < argc; i += 2) {
-        if (i + 1 == argc) return false;
         const std::string_view word = argv[i];
+        if (!word.starts_with("--")) {
+            out.meshes.emplace_back(word);
+            --i;
+            continue;
+        }
+        if (i + 1 == argc) return false;
         const std::uint64_t value = std::strtoull(argv[i + 1], nullptr, 10);
         if (word == "--seed")
             out.seed = value;
@@ -204,14 +302,17 @@ bool parse(int argc, char** argv, Options& out) {
 int main(int argc, char** argv) {
     Options options;
     if (!parse(argc, argv, options)) {
-        std::fprintf(stderr,
-                     "usage: modelling_sets [--seed S] [--hulls N] [--sums M] [--only I]\n");
+        std::fprintf(
+            stderr,
+            "usage: modelling_sets [--seed S] [--hulls N] [--sums M] [--only I] | MESH...\n");
         return 2;
     }
     Campaign campaign(options);
     const bool one = options.only != ~std::uint64_t{0};
     const std::uint64_t end = one ? options.only + 1 : options.hulls + options.sums;
-    for (std::uint64_t i = one ? options.only : 0; i < end; ++i) campaign.run(i);
+    for (const std::string& mesh : options.meshes) campaign.run(mesh);
+    for (std::uint64_t i = one ? options.only : 0; i < end && options.meshes.empty(); ++i)
+        campaign.run(i);
     const Counts& c = campaign.counts();
     const auto n = [](std::uint64_t v) { return static_cast<unsigned long long>(v); };
     std::printf(
