@@ -159,9 +159,15 @@ void add_side_files(const std::string& name, FormattedMesh& formatted,
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
     for (SideFile& file : formatted.files) {
         const std::string path = (folder / file.name).string();
-        const auto is_same = [&](const OutputBytes& other) { return other.path == path; };
-        if (std::none_of(files.begin(), files.end(), is_same))
+        const auto known = std::find_if(files.begin(), files.end(), [&](const OutputBytes& other) {
+            return other.path == path;
+        });
+        if (known == files.end())
             files.push_back({path, std::move(file.bytes), OutputSafety::Renamed});
+        else if (known->bytes != file.bytes)
+            throw UsageError(path +
+                             ": two parts would have different pictures of this name beside them; "
+                             "give their files other names");
     }
 }
 

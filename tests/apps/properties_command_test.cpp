@@ -131,6 +131,27 @@ TEST_F(PropertiesCommand, SplitsHaveThemInEachPart) {
     expect_linear(model("o.obj"), 15);
 }
 
+TEST_F(PropertiesCommand, PicturesOfPartsDoNotReplaceEachOther) {
+    const std::string other = textured("d");
+    std::ofstream(path("d.png"), std::ios::binary) << "\x89PNG, another";
+    ASSERT_EQ(
+        trisect({"convert", other, "--translate", "5,0,0", "-o", path("e.obj"), "--properties"})
+            .code,
+        0);
+    ASSERT_EQ(trisect({"union", a_, path("e.obj"), "-o", path("u.glb"), "--properties"}).code, 0);
+    const auto split = [&](const char* first, const char* second) {
+        return trisect({"split", path("u.glb"), "--plane", "x=3", "-o", path(first), path(second),
+                        "--properties"});
+    };
+    const Finished refused = split("p.obj", "p.ply");
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("p_1.png"), std::string::npos) << refused.err;
+    EXPECT_FALSE(std::ifstream(path("p.obj")).good());
+    ASSERT_EQ(split("p.obj", "q.ply").code, 0);
+    EXPECT_EQ(read(path("p_1.png")), "\x89PNG");
+    EXPECT_EQ(read(path("q_1.png")), "\x89PNG, another");
+}
+
 /// Corners of the only part: place, normal, and the material of the face.
 struct ReadCorner {
     trisect::Point3d place{};
