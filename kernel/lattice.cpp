@@ -16,6 +16,7 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/power_of_two.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/ready_memory.h>
 #include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect {
@@ -387,7 +388,7 @@ std::vector<LatticePoint> rounded_points(Coordinates points, Lattice lattice, La
                                          std::uint32_t threads) {
     report.lattice = lattice;
     std::vector<LatticePoint> out;
-    detail::resize_on_threads(out, points.size(), threads);
+    detail::resize_ready(out, points.size());
     const detail::ParallelParts parts(points.size(), threads, least_part);
     std::vector<Rounding<Kind>> roundings(parts.count(), Rounding<Kind>(lattice));
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {

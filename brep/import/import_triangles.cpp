@@ -49,6 +49,7 @@
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/ready_memory.h>
 
 namespace trisect::detail {
 
@@ -188,7 +189,7 @@ private:
     };
 
     void look_at_triangles() {
-        resize_on_threads(triangles(), input_.triangles.size(), sharing_.threads);
+        resize_ready(triangles(), input_.triangles.size());
         set_bounds();
         const ParallelParts parts = sharing_.parts(triangles().size());
         std::vector<Found> found(parts.count());

@@ -23,8 +23,8 @@
 #include <memory>
 #include <vector>
 
-#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/ready_memory.h>
 #include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect::detail {
@@ -102,7 +102,7 @@ public:
         : first_(static_cast<std::uint32_t>(first)),
           size_(static_cast<std::uint32_t>(end - first)),
           point_count_(point_count),
-          rows_(make_large_array<Row>(end - first + 1)),
+          rows_(make_ready_array<Row>(end - first + 1)),
           counts_(end - first + 1) {}
 
     // Of triangles that are corners of all points.

@@ -27,6 +27,7 @@
 #include <trisect/bsp/assembly/parts/whole_facets.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -111,14 +112,14 @@ private:
     BoundaryVertices& vertices_;
     FaceLoops loops_;
     BrepBuilder builder_;
-    std::vector<std::uint32_t> number_;  // by vertex: the builder's
+    PoolVector<std::uint32_t> number_;  // by vertex: the builder's
     std::vector<IndexLoop> outline_;
 };
 
 // Vertices at which a facet that passed through turns are real, whatever the others do there.
-std::vector<PointId> corners_to_keep(std::span<const WholeFacet> whole,
-                                     const BoundaryVertices& vertices) {
-    std::vector<PointId> keep;
+PoolVector<PointId> corners_to_keep(std::span<const WholeFacet> whole,
+                                    const BoundaryVertices& vertices) {
+    PoolVector<PointId> keep;
     for (const WholeFacet& w : whole) {
         if (w.joins) continue;
         for (const auto v : w.corners)
@@ -133,14 +134,14 @@ Brep assemble_brep(const SolidState& solid, const AssembleOptions& options, Asse
     const bool within_faces = !options.maximal_faces;
     BoundaryParts parts;
     gather_parts(solid, parts, false);
-    std::vector<BoundaryEdge> edges = std::move(parts.edges);
+    BoundaryEdges edges = std::move(parts.edges);
     join_facets(parts, edges);
     // Neighbours in one plane stay apart, so the points between them on other facets are vertices.
     if (within_faces) conform_unmatched_edges(parts, edges);
     remove_straight_vertices(parts, true, {}, edges);
     BoundaryVertices vertices(parts);
-    std::vector<WholeFacet> whole = list_whole_facets(parts, edges, within_faces, vertices);
-    const std::vector<BrokenEdge> broken = find_broken_edges(parts, edges, whole);
+    PoolVector<WholeFacet> whole = list_whole_facets(parts, edges, within_faces, vertices);
+    const PoolVector<BrokenEdge> broken = find_broken_edges(parts, edges, whole);
     add_joining_facets(whole, broken, vertices, parts, edges);
     join_coplanar_facets(parts, within_faces, edges);
     if (stats != nullptr) {

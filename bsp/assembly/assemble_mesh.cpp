@@ -26,8 +26,9 @@
 #include <trisect/bsp/flat/flat_mesh.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
-#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
+#include <trisect/kernel/support/ready_memory.h>
 
 namespace trisect::detail {
 
@@ -47,7 +48,7 @@ constexpr std::size_t least_made = 512;
 constexpr std::size_t least_cut = 256;
 
 // By source: the numbers of its corners in the mesh.
-using CornerTables = std::vector<std::vector<std::uint32_t>>;
+using CornerTables = std::vector<PoolVector<std::uint32_t>>;
 
 // Marks the corners of the facets that pass through as in use. Several threads mark the same ones,
 // and look first, so that they need not wait for each other's caches.
@@ -95,9 +96,9 @@ public:
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         number_.assign(bench_.point_count(), no_number);
-        const std::vector<PointId> made = number_corners(edges);
+        const PoolVector<PointId> made = number_corners(edges);
         cut_facets(edges, made);
-        resize_on_threads(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size(), threads_);
+        resize_ready(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size());
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
         number_faces();
         return std::move(mesh_);
@@ -153,8 +154,8 @@ private:
 
     // The corners of the result's facets, source by source, in the order of their vertices. Returns
     // the vertices that are none.
-    std::vector<PointId> number_corners(std::span<const BoundaryEdge> edges) {
-        std::vector<PointId> made;
+    PoolVector<PointId> number_corners(std::span<const BoundaryEdge> edges) {
+        PoolVector<PointId> made;
         for (const BoundaryEdge& e : edges) {
             if (std::exchange(number_[as_index(e.from)], in_use) != no_number) continue;
             if (bench_.is_corner(e.from)) {
@@ -166,7 +167,7 @@ private:
         const auto used_in = [](std::span<const std::uint32_t> part) {
             return part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
         };
-        std::vector<std::vector<std::size_t>> counts;  // of every part of a table
+        std::vector<PoolVector<std::size_t>> counts;  // of every part of a table
         std::size_t count = made.size();
         for (const auto& table : tables_) {
             const ParallelParts parts(table.size(), threads_, least_points);
@@ -176,7 +177,7 @@ private:
             });
             count = std::accumulate(of_parts.begin(), of_parts.end(), count);
         }
-        reserve_large(mesh_.points, count);
+        reserve_ready(mesh_.points, count);
         for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
         for (const BoundaryEdge& e : edges)
             if (bench_.is_corner(e.from)) number_[as_index(e.from)] = corner_of(e.from);
@@ -186,10 +187,10 @@ private:
     // Numbers and coordinates for the corners in use; `counts` of them in each part.
     void number_table(std::size_t t, std::span<const std::size_t> counts) {
         const LatticePoint* const points = parts_.sources[t].source()->mesh().points.data();
-        std::vector<std::uint32_t>& table = tables_[t];
-        std::vector<std::size_t> first(counts.size());
+        PoolVector<std::uint32_t>& table = tables_[t];
+        PoolVector<std::size_t> first(counts.size());
         std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
-        resize_on_threads(mesh_.points, first.back() + counts.back(), threads_);
+        resize_ready(mesh_.points, first.back() + counts.back());
         Point3d* const out = mesh_.points.data();
         ParallelParts(table.size(), threads_, least_points)
             .for_each([&, unit = unit_](std::size_t part, std::size_t begin, std::size_t end) {
@@ -222,10 +223,10 @@ private:
 
     // Cuts facets that do not pass through into triangles. `made`: vertices that are no corners.
     void cut_facets(std::span<const BoundaryEdge> edges, std::span<const PointId> made) {
-        std::vector<std::size_t> begins;  // of the edges of each
+        PoolVector<std::size_t> begins;  // of the edges of each
         for (std::size_t i = 0; i < edges.size(); ++i)
             if (i == 0 || edges[i].facet != edges[i - 1].facet) begins.push_back(i);
-        const std::vector<Point3d> rounded = rounded_coordinates(made);
+        const PoolVector<Point3d> rounded = rounded_coordinates(made);
         const MadeVertices vertices{number_, rounded, unit_};
         const ParallelParts parts(begins.size(), threads_, least_cut);
         std::vector<CutFacets> cut(parts.count());
@@ -242,8 +243,8 @@ private:
     }
 
     // Numbers them in this order, too, for the time being.
-    std::vector<Point3d> rounded_coordinates(std::span<const PointId> made) {
-        std::vector<Point3d> out(made.size());
+    PoolVector<Point3d> rounded_coordinates(std::span<const PointId> made) {
+        PoolVector<Point3d> out(made.size());
         ParallelParts(made.size(), threads_, least_made)
             .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) {
@@ -258,7 +259,7 @@ private:
     // corners of triangles.
     void number_made(std::span<const CutFacets> cut, std::span<const PointId> made,
                      std::span<const Point3d> rounded) {
-        std::vector<std::uint32_t> at(made.size(), no_number);
+        PoolVector<std::uint32_t> at(made.size(), no_number);
         std::size_t corners = 0;
         for (const CutFacets& part : cut) corners += part.corners.size();
         worked_.reserve(corners);
@@ -289,8 +290,8 @@ private:
     }
 
     // The first facet that was cut, from one of a source on.
-    [[nodiscard]] std::vector<Worked>::const_iterator worked_from(std::size_t t,
-                                                                  std::size_t facet) const {
+    [[nodiscard]] PoolVector<Worked>::const_iterator worked_from(std::size_t t,
+                                                                 std::size_t facet) const {
         const std::pair at(t, place_of(static_cast<std::uint32_t>(facet), false));
         return std::ranges::lower_bound(worked_facets_, at, {}, &Worked::place);
     }
@@ -299,7 +300,7 @@ private:
     void write_source(std::size_t t) {
         const FacetMarks& marks = parts_.sources[t];
         const ParallelParts parts(marks.group_count(), threads_, least_group_count);
-        std::vector<std::size_t> whole(parts.count());  // before each part
+        PoolVector<std::size_t> whole(parts.count());  // before each part
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             whole[part] = marks.counts(begin, end).whole;
         });
@@ -348,7 +349,7 @@ private:
     }
 
     void number_faces() {
-        resize_on_threads(mesh_.face_begin, mesh_.corners.size() / 3 + 1, threads_);
+        resize_ready(mesh_.face_begin, mesh_.corners.size() / 3 + 1);
         ParallelParts(mesh_.face_begin.size(), threads_, least_points)
             .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i)
@@ -363,14 +364,14 @@ private:
     const Workbench& bench_;
     CornerTables tables_;
     PolygonMesh mesh_;
-    std::vector<Worked> worked_facets_;  // in their order; then one more where they end
-    std::vector<std::uint32_t> worked_;  // three corners a triangle
+    PoolVector<Worked> worked_facets_;  // in their order; then one more where they end
+    PoolVector<std::uint32_t> worked_;  // three corners a triangle
     std::size_t whole_written_ = 0;
-    std::vector<std::uint32_t> number_;  // by PointId
+    PoolVector<std::uint32_t> number_;  // by PointId
 };
 
 // The corners of facets that pass through: vertices, whatever the others do there.
-std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
+PoolVector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
     std::vector<std::vector<bool>> used;
     for (const FacetMarks& marks : parts.sources) {
         const LatticeMesh& mesh = marks.source()->mesh();
@@ -379,7 +380,7 @@ std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
             for (const std::uint32_t v : mesh.triangles[facet]) is_used[v] = true;
         });
     }
-    std::vector<PointId> out;
+    PoolVector<PointId> out;
     for (std::size_t p = 0; p < parts.bench.point_count(); ++p) {
         if (!parts.bench.is_corner(static_cast<PointId>(p))) continue;
         const auto [source, v] = parts.bench.corner_name(static_cast<PointId>(p));
@@ -400,7 +401,7 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
                      std::uint32_t threads, const MeshDetails& details) {
     BoundaryParts parts;
     gather_parts(solid, parts, by_planes, threads);
-    std::vector<BoundaryEdge> edges = std::move(parts.edges);
+    BoundaryEdges edges = std::move(parts.edges);
     const auto join = [&] {
         if (parts.are_joined) return sort_by_facet(parts, edges);
         join_facets(parts, edges);

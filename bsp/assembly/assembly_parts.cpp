@@ -43,6 +43,7 @@
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -140,21 +141,21 @@ private:
     std::uint64_t first_serial_ = 0;  // of the mesh that stands for both where they have facets in
                                       // common; these may pass through
     bool defers_ = false;             // crossings of all leaves in general position are known
-    std::vector<AssembledLeaf> leaves_;
-    std::vector<ListPart> lists_;
+    PoolVector<AssembledLeaf> leaves_;
+    PoolVector<ListPart> lists_;
     std::size_t last_table_ = 0;
     // Of traced facets, then of the parts, leaf by leaf, then of axis-perpendicular planes.
-    std::vector<BoundaryEdge> edges_;
+    BoundaryEdges edges_;
     std::unique_ptr<AxisFaces> axis_faces_;
-    std::vector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
-    std::vector<PointId> same_;
-    std::vector<std::pair<PointId, PlaneId>> through_;  // a value, the class of a plane through it
+    PoolVector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
+    PoolVector<PointId> same_;
+    PoolVector<std::pair<PointId, PlaneId>> through_;  // a value, the class of a plane through it
     EdgeSplitter splitter_;
     // Of the group of fragments in the making.
     FragmentGroup fragments_;
     std::vector<PolygonRef> group_;
-    std::vector<PlaneId> planes_;
-    std::vector<PointId> points_;
+    PoolVector<PlaneId> planes_;
+    PoolVector<PointId> points_;
 };
 
 void Gatherer::gather(const CellTree& tree) {
@@ -494,7 +495,7 @@ void Gatherer::number_facets() {
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             counts[part] = marks.counts(begin, end);
         });
-        std::vector<std::size_t> first(parts.count());  // number of each part
+        PoolVector<std::size_t> first(parts.count());  // number of each part
         std::size_t n = out_.facets.size();
         for (std::size_t part = 0; part < parts.count(); ++part) {
             out_.stats.whole_facets += counts[part].whole;
@@ -711,7 +712,7 @@ void Gatherer::merge_equal_points() {
     const auto better = [&](PointId a, PointId b) {
         return rank(a) != rank(b) ? rank(a) > rank(b) : a < b;
     };
-    std::vector<PointId> values;
+    PoolVector<PointId> values;
     for_each_near_group(bench, [&](std::span<const PointId> group) {
         // Against one of each value: what is equal to it needs no comparison of its own.
         values.clear();
@@ -784,7 +785,7 @@ bool Gatherer::conform_traced(std::span<BoundaryEdge> edges) {
         splitter_.split(special, out_.edges);
         return true;
     }
-    std::vector<BoundaryEdge> conforming;
+    BoundaryEdges conforming;
     splitter_.split(special, conforming);
     if (!remove_sheets(out_, same_, conforming)) return false;
     out_.edges.insert(out_.edges.end(), conforming.begin(), conforming.end());

@@ -50,15 +50,15 @@ public:
     }
 
     /// The groups of two and more, one after the other, each in the order of ids.
-    [[nodiscard]] std::vector<PointId> grouped() {
-        std::vector<std::pair<PointId, PointId>> order;  // smallest of the group, point
+    [[nodiscard]] PoolVector<PointId> grouped() {
+        PoolVector<std::pair<PointId, PointId>> order;  // smallest of the group, point
         for (std::size_t p = 0; p < root_.size(); ++p) {
             const PointId r = root(static_cast<PointId>(p));
             if (as_index(r) == p) continue;
             order.emplace_back(r, static_cast<PointId>(p));
         }
         std::sort(order.begin(), order.end());
-        std::vector<PointId> out;
+        PoolVector<PointId> out;
         for (std::size_t i = 0; i < order.size(); ++i) {
             if (i == 0 || order[i].first != order[i - 1].first) out.push_back(order[i].first);
             out.push_back(order[i].second);
@@ -115,7 +115,7 @@ private:
 
     // The table holds numbers of entries, one for each cell.
     void connect() {
-        std::vector<std::uint32_t> table(std::bit_ceil(2 * entries_.size() + 1), none);
+        PoolVector<std::uint32_t> table(std::bit_ceil(2 * entries_.size() + 1), none);
         for (std::uint32_t e = 0; e < entries_.size(); ++e) {
             std::size_t i = entries_[e].cell & (table.size() - 1);
             while (table[i] != none && entries_[table[i]].cell != entries_[e].cell)
@@ -133,8 +133,8 @@ private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     const Workbench& bench_;
     double per_unit_;
-    std::vector<Entry> entries_;
-    std::vector<PointId> root_;
+    PoolVector<Entry> entries_;
+    PoolVector<PointId> root_;
 };
 
 struct PointRange {
@@ -208,7 +208,7 @@ void for_each_near_group(const Workbench& bench,
                          const std::function<void(std::span<const PointId>)>& visit) {
     Neighbours neighbours(bench);
     Groups groups(bench, visit);
-    const std::vector<PointId> points = neighbours.grouped();
+    const PoolVector<PointId> points = neighbours.grouped();
     for (std::size_t i = 0; i < points.size();) {
         std::size_t j = i + 1;
         while (j < points.size() && neighbours.root(points[j]) == points[i]) ++j;

@@ -11,8 +11,8 @@
 #include <numeric>
 #include <vector>
 
-#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/ready_memory.h>
 
 namespace trisect::detail {
 
@@ -25,7 +25,7 @@ template <class List>
     constexpr std::size_t least_part = 16384;
     // Room for one more each: a loop without a branch writes behind the last one.
     const ParallelParts parts(size, threads, least_part);
-    const auto room = make_large_array<std::uint32_t>(size + parts.count());
+    const auto room = make_ready_array<std::uint32_t>(size + parts.count());
     std::vector<std::size_t> counts(parts.count() + 1);
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         std::uint32_t* const out = room.get() + begin + part;
@@ -34,7 +34,7 @@ template <class List>
     if (parts.count() == 1) return {room.get(), room.get() + counts[1]};
     std::inclusive_scan(counts.begin(), counts.end(), counts.begin());
     std::vector<std::uint32_t> all;
-    resize_on_threads(all, counts.back(), threads);
+    resize_ready(all, counts.back());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t) {
         std::copy_n(room.get() + begin + part, counts[part + 1] - counts[part],
                     all.data() + counts[part]);

@@ -8,12 +8,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
-#include <vector>
 
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
-#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/task_group.h>
 #include <trisect/kernel/support/thread_pool.h>
 
@@ -95,28 +92,6 @@ private:
                                                    std::size_t least) {
     const std::size_t slots = threads != 0 ? threads : threads_here();
     return {size, threads, std::max(least, (size + slots - 1) / slots)};
-}
-
-/// Resizes a vector of simple values. Memory that is touched for the first time is made ready by
-/// the system page by page, which takes longer than all else; so several threads touch some of it.
-template <class T>
-void resize_on_threads(std::vector<T>& values, std::size_t size, std::uint32_t threads) {
-    static_assert(std::is_trivially_copyable_v<T>);
-    constexpr std::size_t page = 4096;
-    constexpr std::size_t least_pages = 64;
-    reserve_large(values, size);
-    auto* const begin = reinterpret_cast<std::byte*>(values.data() + values.size());
-    auto* const end = reinterpret_cast<std::byte*>(values.data() + size);
-    if (begin < end) {
-        const ParallelParts parts(static_cast<std::size_t>(end - begin) / page, threads,
-                                  least_pages);
-        if (parts.count() > 1)
-            parts.for_each([&](std::size_t, std::size_t first, std::size_t last) {
-                // Nothing lives there yet.
-                for (std::size_t i = first; i < last; ++i) begin[i * page] = std::byte{0};
-            });
-    }
-    values.resize(size);
 }
 
 }  // namespace trisect::detail

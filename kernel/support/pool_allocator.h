@@ -7,15 +7,17 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <vector>
 
+#include <trisect/kernel/support/ready_memory.h>
 #include <trisect/kernel/support/stack_arena.h>
 
 namespace trisect::detail {
 
 /// Takes blocks of medium size from the BlockPool. What lies at the end of the heap is given back
 /// to the system whenever it is freed, and a small result then pays for the same pages each time, a
-/// twentieth of its whole time. Small blocks stay in the heap anyway, and large ones are rather
-/// given back than kept.
+/// twentieth of its whole time. Small blocks stay in the heap anyway. Large ones are rather given
+/// back than kept, and are made ready before values are moved into them (ready_memory.h).
 template <class T>
 class PoolAllocator {
 public:
@@ -26,7 +28,11 @@ public:
     PoolAllocator(const PoolAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor)
 
     [[nodiscard]] T* allocate(std::size_t n) {
-        if (!is_pooled(n)) return std::allocator<T>().allocate(n);
+        if (!is_pooled(n)) {
+            T* const p = std::allocator<T>().allocate(n);
+            make_ready(static_cast<void*>(p), n * sizeof(T));
+            return p;
+        }
         const MemoryBlock block = BlockPool::take(n * sizeof(T) + header);
         ::new (block.memory) MemoryBlock(block);
         return reinterpret_cast<T*>(block.memory + header);
@@ -53,5 +59,9 @@ private:
         return n >= least / sizeof(T) && n <= most / sizeof(T);
     }
 };
+
+/// A vector that may become large and does not live long.
+template <class T>
+using PoolVector = std::vector<T, PoolAllocator<T>>;
 
 }  // namespace trisect::detail

@@ -14,8 +14,8 @@ namespace trisect::detail {
 
 /// Sorts by 64-bit keys, stable, `key(item)` being called a few times for every item. Goes through
 /// the items once for each eleven bits in which keys differ; takes as much memory again.
-template <class Item, class Key>
-void radix_sort(std::vector<Item>& items, const Key& key) {
+template <class Item, class Memory, class Key>
+void radix_sort(std::vector<Item, Memory>& items, const Key& key) {
     constexpr unsigned bits = 11;
     constexpr std::size_t few = 256;
     if (items.size() < few) {
@@ -25,7 +25,7 @@ void radix_sort(std::vector<Item>& items, const Key& key) {
     std::uint64_t differ = 0;
     const std::uint64_t first = key(items.front());
     for (const Item& i : items) differ |= key(i) ^ first;
-    std::vector<Item> sorted(items.size());
+    std::vector<Item, Memory> sorted(items.size());
     std::array<std::size_t, std::size_t{1} << bits> place;
     for (unsigned shift = 0; shift < 64 && differ >> shift != 0; shift += bits) {
         if ((differ >> shift) % place.size() == 0) continue;

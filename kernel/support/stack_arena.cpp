@@ -10,6 +10,8 @@
 #include <sys/mman.h>
 #endif
 
+#include <trisect/kernel/support/ready_memory.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -84,10 +86,7 @@ MemoryBlock BlockPool::take(std::size_t bytes) {
     if (const MemoryBlock kept = pool().take(size); kept.memory != nullptr) return kept;
     auto* p = static_cast<std::byte*>(std::aligned_alloc(page, size));
     if (p == nullptr) throw std::bad_alloc();
-#if defined(__linux__)
-    // Fewer faults. A wish only.
-    if (page == huge_page) (void)madvise(p, size, MADV_HUGEPAGE);
-#endif
+    make_ready(p, size);
     return {p, size};
 }
 

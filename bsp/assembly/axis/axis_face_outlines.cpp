@@ -36,6 +36,7 @@
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -707,7 +708,7 @@ PointId AxisFaceOutlines<Number>::make_point(const Ranks& ranks) {
 }
 
 template <class Number>
-void AxisFaceOutlines<Number>::make_edges(std::vector<BoundaryEdge>& edges) {
+void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
     if (taken_count_ == 0) return;
     keeps_lines_ = !others_.empty();
     place_others();
@@ -740,7 +741,7 @@ std::size_t AxisFaceOutlines<Number>::count_edges() const {
 
 template <class Number>
 void AxisFaceOutlines<Number>::make_edges_of(FacePlane& face_plane, bool faces_up,
-                                             std::vector<BoundaryEdge>& edges) {
+                                             BoundaryEdges& edges) {
     const std::int32_t first = face_plane.first[faces_up ? 1 : 0];
     BoundaryFacet& f = parts_.facets[as_index(first)];
     f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
@@ -767,8 +768,7 @@ void AxisFaceOutlines<Number>::make_edges_of(FacePlane& face_plane, bool faces_u
 
 // An edge ends at splitting planes too, for which doubles suffice: the caller checks the result.
 template <class Number>
-void AxisFaceOutlines<Number>::add_vertices_in(const BoundaryEdge& edge,
-                                               std::vector<PointId>& out) {
+void AxisFaceOutlines<Number>::add_vertices_in(const BoundaryEdge& edge, PoolVector<PointId>& out) {
     const Workbench& bench = parts_.bench;
     const auto support =
         axis_plane<Number>(bench.name(parts_.facets[as_index(edge.facet)].support));

@@ -15,6 +15,7 @@
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -26,8 +27,8 @@ public:
 
     void choose(std::span<const Leaf> leaves) override;
     void note_vertices(std::span<const BoundaryEdge> edges) override;
-    void make_edges(std::vector<BoundaryEdge>& edges) override;
-    void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) override;
+    void make_edges(BoundaryEdges& edges) override;
+    void add_vertices_in(const BoundaryEdge& edge, PoolVector<PointId>& out) override;
 
 private:
     using Numbers = AxisNumbers<Number>;
@@ -141,7 +142,7 @@ private:
     void make_stops();
     void add_line(FacePlane& face_plane, const Interval& interval);
     [[nodiscard]] std::size_t count_edges() const;
-    void make_edges_of(FacePlane& face_plane, bool faces_up, std::vector<BoundaryEdge>& edges);
+    void make_edges_of(FacePlane& face_plane, bool faces_up, BoundaryEdges& edges);
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, Number at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
@@ -176,17 +177,17 @@ private:
     std::vector<PolygonName> passing_;  // until their corners are listed
     std::size_t first_passing_ = 0;     // of corners_, once they are there too
     // Vertices of facets that are not taken, where they are on the lattice, and their places.
-    std::vector<PointId> others_;
+    PoolVector<PointId> others_;
     std::vector<LatticePoint> places_;
     std::vector<Side> sides_;
 
-    std::array<std::vector<Number>, 3> coordinates_;          // sorted
-    std::array<std::vector<std::int32_t>, 3> face_plane_of_;  // by rank
-    std::array<std::vector<Other>, 3> other_stops_;           // sorted
-    std::vector<Stop> stops_;                                 // line by line
-    std::vector<Stops> all_lines_;     // where queries are possible, and their keys
-    std::array<FlatMap, 3> lines_;     // by axis
-    std::vector<std::uint32_t> line_;  // the places on the line in the making
+    std::array<std::vector<Number>, 3> coordinates_;         // sorted
+    std::array<PoolVector<std::int32_t>, 3> face_plane_of_;  // by rank
+    std::array<std::vector<Other>, 3> other_stops_;          // sorted
+    std::vector<Stop> stops_;                                // line by line
+    std::vector<Stops> all_lines_;    // where queries are possible, and their keys
+    std::array<FlatMap, 3> lines_;    // by axis
+    PoolVector<std::uint32_t> line_;  // the places on the line in the making
     FlatMap corner_ids_;
     FlatMap point_ids_;
 };

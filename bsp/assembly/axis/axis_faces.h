@@ -13,6 +13,7 @@
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -63,9 +64,9 @@ public:
     virtual void note_vertices(std::span<const BoundaryEdge> edges) = 0;
     /// Appends the edges of all faces of the planes taken, named after the first facet of each
     /// plane and facing, with all vertices that lie inside them.
-    virtual void make_edges(std::vector<BoundaryEdge>& edges) = 0;
+    virtual void make_edges(BoundaryEdges& edges) = 0;
     /// Appends all vertices known to make_edges() that may lie inside an edge noted before.
-    virtual void add_vertices_in(const BoundaryEdge& edge, std::vector<PointId>& out) = 0;
+    virtual void add_vertices_in(const BoundaryEdge& edge, PoolVector<PointId>& out) = 0;
 
 protected:
     std::size_t read_count_ = 0;

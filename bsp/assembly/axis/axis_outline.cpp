@@ -15,6 +15,7 @@
 #include <trisect/bsp/cells/occupancy_grid.h>
 #include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -267,14 +268,14 @@ std::size_t AxisOutline<Number>::next_of(const AxisInterval<Number>& s,
 }
 
 template <class Number>
-std::vector<std::uint32_t> AxisOutline<Number>::loops(bool faces_up) const {
+PoolVector<std::uint32_t> AxisOutline<Number>::loops(bool faces_up) const {
     const auto interval_at = [&](std::size_t run) {
         return run < runs_.size() ? runs_[run].first : intervals_.size();
     };
     const std::size_t begin = interval_at(first_run_[kind_of(faces_up, 0)]);
     const std::size_t end = interval_at(first_run_[kind_of(faces_up, 1) + 1]);
     std::vector<bool> used(intervals_.size(), false);
-    std::vector<std::uint32_t> ordered;
+    PoolVector<std::uint32_t> ordered;
     ordered.reserve(end - begin);
     for (std::size_t start = begin; start < end; ++start) {
         for (std::size_t i = start; i < end && !used[i]; i = next_of(intervals_[i], used)) {

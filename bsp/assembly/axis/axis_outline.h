@@ -13,6 +13,7 @@
 
 #include <trisect/bsp/cells/axis_grid.h>
 #include <trisect/bsp/cells/axis_polygon.h>
+#include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/wide_int.h>
 
 namespace trisect::detail {
@@ -157,7 +158,7 @@ public:
     }
     /// Numbers of all intervals with one facing, each behind the one that it continues, loop after
     /// loop.
-    [[nodiscard]] std::vector<std::uint32_t> loops(bool faces_up) const;
+    [[nodiscard]] PoolVector<std::uint32_t> loops(bool faces_up) const;
 
 private:
     using Change = AxisChange<Number>;

@@ -28,13 +28,14 @@
 #include <trisect/kernel/number/triangle_normal.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
 namespace {
 
 // Takes what cancels, if it is wanted.
-using Cancelled = std::vector<BoundaryEdge>;
+using Cancelled = BoundaryEdges;
 
 // Cancels opposite pairs of few edges, in place; keeps the order of what is left.
 std::size_t cancel_few(std::span<BoundaryEdge> edges, Cancelled* cancelled) {
@@ -92,12 +93,12 @@ std::size_t cancel_opposites(std::span<BoundaryEdge> edges, Cancelled* cancelled
 
 // Where coincident facets of two operands meet at a splitting plane because one of them dropped out
 // of the formula beyond it, each side has only its own vertices on the splitting plane.
-void conform_splitters(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void conform_splitters(const BoundaryParts& parts, BoundaryEdges& edges) {
     const auto on_splitter = [&](const BoundaryEdge& e) {
         return parts.bench.name(e.line.plane).is_splitter();
     };
     if (std::none_of(edges.begin(), edges.end(), on_splitter)) return;
-    std::vector<BoundaryEdge> splitters;
+    BoundaryEdges splitters;
     std::copy_if(edges.begin(), edges.end(), std::back_inserter(splitters), on_splitter);
     std::erase_if(edges, on_splitter);
     EdgeSplitter splitter(parts.bench, parts.facets);
@@ -111,13 +112,13 @@ void conform_splitters(const BoundaryParts& parts, std::vector<BoundaryEdge>& ed
 
 }  // namespace
 
-void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void sort_by_facet(const BoundaryParts& parts, BoundaryEdges& edges) {
     const auto by_facet = [](const auto& a, const auto& b) { return a.facet < b.facet; };
     if (std::is_sorted(edges.begin(), edges.end(), by_facet)) return;
-    std::vector<std::size_t> fill(parts.facets.size() + 1, 0);
+    PoolVector<std::size_t> fill(parts.facets.size() + 1, 0);
     for (const BoundaryEdge& e : edges) ++fill[as_index(e.facet) + 1];
     std::partial_sum(fill.begin(), fill.end(), fill.begin());
-    std::vector<BoundaryEdge> sorted(edges.size());
+    BoundaryEdges sorted(edges.size());
     for (const BoundaryEdge& e : edges) sorted[fill[as_index(e.facet)]++] = e;
     edges.swap(sorted);
 }
@@ -131,12 +132,12 @@ void arrange_loops(std::span<BoundaryEdge> edges) {
     }
 }
 
-void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void join_facets(const BoundaryParts& parts, BoundaryEdges& edges) {
     sort_by_facet(parts, edges);
-    std::vector<BoundaryEdge> out;
+    BoundaryEdges out;
     out.reserve(edges.size());
     EdgeSplitter splitter(parts.bench, parts.facets);
-    std::vector<BoundaryEdge> all_cancelled;
+    BoundaryEdges all_cancelled;
     Cancelled* const cancelled = parts.may_have_straight_crossings ? &all_cancelled : nullptr;
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;
@@ -176,7 +177,7 @@ void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
     arrange_loops(edges);
 }
 
-void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void conform_unmatched_edges(const BoundaryParts& parts, BoundaryEdges& edges) {
     const auto key = [](PointId from, PointId to) {
         return Key128{static_cast<std::uint64_t>(from), static_cast<std::uint64_t>(to)};
     };
@@ -185,7 +186,7 @@ void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdg
     const auto is_unmatched = [&](const BoundaryEdge& e) {
         return known.find(key(e.to, e.from)) < 0;
     };
-    std::vector<BoundaryEdge> unmatched;
+    BoundaryEdges unmatched;
     std::copy_if(edges.begin(), edges.end(), std::back_inserter(unmatched), is_unmatched);
     if (unmatched.empty()) return;
     EdgeSplitter splitter(parts.bench, parts.facets);
@@ -193,7 +194,7 @@ void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdg
         splitter.add_candidate(e.from);
         splitter.add_candidate(e.to);
     }
-    std::vector<BoundaryEdge> split;
+    BoundaryEdges split;
     splitter.split(unmatched, split);
     if (split.size() == unmatched.size()) return;
     std::erase_if(edges, is_unmatched);
@@ -226,8 +227,7 @@ namespace {
 // its other side, and is joined with it.
 class CoplanarPairs {
 public:
-    CoplanarPairs(const BoundaryParts& parts, bool within_faces,
-                  const std::vector<BoundaryEdge>& edges)
+    CoplanarPairs(const BoundaryParts& parts, bool within_faces, const BoundaryEdges& edges)
         : parts_(parts),
           within_faces_(within_faces),
           edges_(edges),
@@ -314,7 +314,7 @@ private:
 
     // Facets that pass through as they are have no edges here.
     void find_whole_facets() {
-        std::vector<BoundaryEdge> inside;
+        BoundaryEdges inside;
         for (const auto& [e, f] : pairs_)
             if (parts_.facets[as_index(edges_[e].facet)].source ==
                 parts_.facets[as_index(edges_[f].facet)].source)
@@ -328,12 +328,12 @@ private:
     void keep_crossings() {
         if (pairs_.empty() || crowded_.empty()) return;
         std::ranges::sort(crowded_);
-        std::vector<std::pair<std::uint64_t, std::uint32_t>> here;
+        PoolVector<std::pair<std::uint64_t, std::uint32_t>> here;
         for (std::uint32_t e = 0; e < edges_.size(); ++e)
             if (std::ranges::binary_search(crowded_, ends_of(edges_[e])))
                 here.emplace_back(ends_of(edges_[e]), e);
         std::ranges::sort(here);
-        std::vector<FacetEdge> group;
+        PoolVector<FacetEdge> group;
         for (std::size_t i = 0; i < here.size();) {
             std::size_t j = i;
             group.clear();
@@ -355,21 +355,21 @@ private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     const BoundaryParts& parts_;
     bool within_faces_;
-    const std::vector<BoundaryEdge>& edges_;
-    std::vector<TriangleNormal> normals_;  // by facet
-    std::vector<std::uint32_t> table_;     // of edges by their ends, open addressing
+    const BoundaryEdges& edges_;
+    PoolVector<TriangleNormal> normals_;  // by facet
+    PoolVector<std::uint32_t> table_;     // of edges by their ends, open addressing
     std::vector<bool> gone_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
-    std::vector<std::uint64_t> crowded_;  // ends of more than two edges
-    std::vector<WholeFacetEdge> whole_;
+    PoolVector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
+    PoolVector<std::uint64_t> crowded_;  // ends of more than two edges
+    PoolVector<WholeFacetEdge> whole_;
 };
 
 }  // namespace
 
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
-                                 std::vector<BoundaryEdge>& edges) {
+                                 BoundaryEdges& edges) {
     check_stop(edges.size());
-    std::vector<std::int32_t> cluster(parts.facets.size());
+    PoolVector<std::int32_t> cluster(parts.facets.size());
     std::iota(cluster.begin(), cluster.end(), 0);
     const auto root = [&](std::int32_t f) {
         while (cluster[as_index(f)] != f)
@@ -402,7 +402,7 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
     return joined;
 }
 
-void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges) {
+void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges) {
     FlatMap first_of_plane;
     bool joined = false;
     for (std::size_t i = 0; i < edges.size();) {
@@ -431,7 +431,7 @@ namespace {
 class StraightRuns {
 public:
     StraightRuns(const BoundaryParts& parts, bool keep_corners, std::span<const PointId> keep,
-                 const std::vector<BoundaryEdge>& edges)
+                 const BoundaryEdges& edges)
         : parts_(parts),
           bench_(parts.bench),
           keep_corners_(keep_corners),
@@ -475,8 +475,8 @@ public:
     }
 
     // Loops that were in order stay so.
-    [[nodiscard]] std::vector<BoundaryEdge> joined() const {
-        std::vector<BoundaryEdge> out;
+    [[nodiscard]] BoundaryEdges joined() const {
+        BoundaryEdges out;
         out.reserve(edges_.size());
         for (std::size_t i = 0; i < edges_.size(); ++i) {
             if (keep_[as_index(edges_[i].from)] == 0) continue;
@@ -558,10 +558,10 @@ private:
     const BoundaryParts& parts_;
     const Workbench& bench_;
     bool keep_corners_;
-    const std::vector<BoundaryEdge>& edges_;
-    std::vector<char> keep_;  // by point
-    std::vector<Passage> uncertain_;
-    std::vector<std::size_t> next_;  // of edges, where they run straight on
+    const BoundaryEdges& edges_;
+    PoolVector<char> keep_;  // by point
+    PoolVector<Passage> uncertain_;
+    PoolVector<std::size_t> next_;  // of edges, where they run straight on
     EdgeChains chains_;
     Ends by_from_;
     Ends by_to_;
@@ -570,7 +570,7 @@ private:
 }  // namespace
 
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
-                              std::span<const PointId> keep, std::vector<BoundaryEdge>& edges) {
+                              std::span<const PointId> keep, BoundaryEdges& edges) {
     StraightRuns runs(parts, keep_corners, keep, edges);
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;

@@ -11,7 +11,7 @@
 namespace trisect::detail {
 
 /// Puts the edges into the order of their facets; those of one facet stay in theirs.
-void sort_by_facet(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+void sort_by_facet(const BoundaryParts& parts, BoundaryEdges& edges);
 
 /// Arranges the edges of every facet (EdgeChains). \pre sorted by facet
 void arrange_loops(std::span<BoundaryEdge> edges);
@@ -21,12 +21,12 @@ void arrange_loops(std::span<BoundaryEdge> edges);
 /// Where parts of neighbouring cells subdivide a common line differently, their ends are inserted
 /// first. The edges come out sorted by facet. \throw UnsupportedError when a part ends at the limit
 /// of space (an unbounded face).
-void join_facets(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+void join_facets(const BoundaryParts& parts, BoundaryEdges& edges);
 
 /// Inserts vertices that lie inside edges into those that no other edge runs against: where two
 /// facets in one plane cross another one, that one has an edge along both. \pre sorted by facet; so
 /// they come out.
-void conform_unmatched_edges(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+void conform_unmatched_edges(const BoundaryParts& parts, BoundaryEdges& edges);
 
 /// Marks the facets whose edges are those of their source's facet: touched in vain. Whether such a
 /// facet has edges at all depends on the tree. \pre edges sorted by facet, straight vertices
@@ -39,17 +39,17 @@ void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> e
 /// face of the same operand are, and facets marked as unchanged never. The edges come out sorted by
 /// facet. Returns how many facets became part of another one's face.
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
-                                 std::vector<BoundaryEdge>& edges);
+                                 BoundaryEdges& edges);
 
 /// Renumbers `facet` of the edges in axis-perpendicular planes to the first facet of their plane
 /// and facing, so that a plane is one region whichever way its outline was found (axis_faces.h).
 /// Facets marked as unchanged stay. \pre sorted by facet; so they come out.
-void join_planes_across_axes(const BoundaryParts& parts, std::vector<BoundaryEdge>& edges);
+void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
 /// corners of the operands stay, and in any case the points of `keep` do. \pre edges sorted by
 /// facet.
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
-                              std::span<const PointId> keep, std::vector<BoundaryEdge>& edges);
+                              std::span<const PointId> keep, BoundaryEdges& edges);
 
 }  // namespace trisect::detail

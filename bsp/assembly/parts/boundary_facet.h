@@ -8,6 +8,7 @@
 
 #include <trisect/bsp/cells/source.h>
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -32,5 +33,7 @@ struct BoundaryEdge {
     std::int32_t facet = -1;  ///< index of the BoundaryFacet
     WorkEdge line;            ///< the edge's line is support ∩ line.plane; the part's side of it
 };
+
+using BoundaryEdges = PoolVector<BoundaryEdge>;
 
 }  // namespace trisect::detail

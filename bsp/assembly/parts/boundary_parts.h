@@ -12,6 +12,7 @@
 #include <trisect/bsp/assembly/parts/facet_marks.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -27,17 +28,17 @@ struct BoundaryParts {
         return {reinterpret_cast<std::uintptr_t>(source), 0};
     }
     FlatMap table_ids;
-    std::vector<BoundaryFacet> facets;  ///< cut, touched or spanning several cells; sorted
-    std::vector<BoundaryEdge> edges;    ///< of these facets
+    PoolVector<BoundaryFacet> facets;  ///< cut, touched or spanning several cells; sorted
+    BoundaryEdges edges;               ///< of these facets
     /// By point: the one that stands for all that equal it. Edges have no others.
-    std::vector<PointId> representatives;
+    PoolVector<PointId> representatives;
     /// The edges are those of whole faces, and no vertex is left that means nothing.
     bool are_joined = false;
     /// As CellTree::may_have_straight_crossings.
     bool may_have_straight_crossings = false;
     /// Edges inside facets in which their faces go straight across others, each in both directions.
     /// Joining adds them.
-    std::vector<BoundaryEdge> crossings;
+    BoundaryEdges crossings;
     AssemblyStats stats;
 };
 

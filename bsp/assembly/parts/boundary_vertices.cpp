@@ -6,6 +6,7 @@
 
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -41,7 +42,7 @@ std::size_t BoundaryVertices::slot_of(const LatticePoint& p) const {
 }
 
 void BoundaryVertices::rehash(std::size_t size) {
-    std::vector<Index> old(size, none);
+    PoolVector<Index> old(size, none);
     old.swap(slots_);
     for (const Index v : old)
         if (v != none) slots_[slot_of(vertices_[v].corner)] = v;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -48,9 +49,9 @@ private:
 
     const BoundaryParts& parts_;
     std::vector<Vertex> vertices_;
-    std::vector<Index> of_point_;
-    std::vector<std::vector<Index>> of_corner_;  // by source
-    std::vector<Index> slots_;                   // corners by coordinates, open addressing
+    PoolVector<Index> of_point_;
+    std::vector<PoolVector<Index>> of_corner_;  // by source
+    PoolVector<Index> slots_;                   // corners by coordinates, open addressing
     std::size_t used_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -61,12 +62,12 @@ public:
     [[nodiscard]] bool any() const { return !parts_of_edges_.empty(); }
 
     // The vertices inside an edge, from its lower vertex in the source to the higher one.
-    [[nodiscard]] std::vector<PointId> inside(const SourceEdge& edge) const {
+    [[nodiscard]] PoolVector<PointId> inside(const SourceEdge& edge) const {
         const auto first = std::ranges::lower_bound(parts_of_edges_, edge, {}, &Part::edge);
         const auto end =
             std::ranges::upper_bound(first, parts_of_edges_.end(), edge, {}, &Part::edge);
         const std::span<const Part> group(std::to_address(first), std::to_address(end));
-        std::vector<PointId> out;
+        PoolVector<PointId> out;
         if (group.empty() || !group.front().starts) return out;
         const BoundaryFacet& f = parts_.facets[as_index(group.front().facet)];
         for (PointId at = group.front().to;;) {
@@ -125,10 +126,10 @@ private:
 
 }  // namespace
 
-std::vector<BrokenEdge> find_broken_edges(const BoundaryParts& parts,
-                                          std::span<const BoundaryEdge> edges,
-                                          std::span<WholeFacet> whole) {
-    std::vector<BrokenEdge> out;
+PoolVector<BrokenEdge> find_broken_edges(const BoundaryParts& parts,
+                                         std::span<const BoundaryEdge> edges,
+                                         std::span<WholeFacet> whole) {
+    PoolVector<BrokenEdge> out;
     BrokenEdges broken(parts);
     broken.read(edges);
     if (!broken.any()) return out;

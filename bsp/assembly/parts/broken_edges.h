@@ -13,20 +13,21 @@
 
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/assembly/parts/whole_facets.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
 struct BrokenEdge {
-    std::size_t whole = 0;        ///< number of the facet
-    int edge = 0;                 ///< from that corner of the facet to the next one
-    std::vector<PointId> inside;  ///< in the order along it
+    std::size_t whole = 0;       ///< number of the facet
+    int edge = 0;                ///< from that corner of the facet to the next one
+    PoolVector<PointId> inside;  ///< in the order along it
 };
 
 /// In the order of facets, which have to join. `edges` are those of the facets that did not pass
 /// through, sorted by facet. O(n log n) for n edges, and a look at all of `whole` only if a facet
 /// across such an edge is not among them.
-[[nodiscard]] std::vector<BrokenEdge> find_broken_edges(const BoundaryParts& parts,
-                                                        std::span<const BoundaryEdge> edges,
-                                                        std::span<WholeFacet> whole);
+[[nodiscard]] PoolVector<BrokenEdge> find_broken_edges(const BoundaryParts& parts,
+                                                       std::span<const BoundaryEdge> edges,
+                                                       std::span<WholeFacet> whole);
 
 }  // namespace trisect::detail

@@ -15,6 +15,7 @@
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -55,8 +56,8 @@ bool cross_straight(std::span<const FacetEdge> edges) {
     return false;
 }
 
-std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
-                                            std::span<const BoundaryEdge> edges) {
+PoolVector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
+                                           std::span<const BoundaryEdge> edges) {
     // An edge by its vertices in the mesh, the smaller one first.
     struct MeshEdge {
         std::size_t table;
@@ -78,7 +79,7 @@ std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
                           (v < w) == (e.from < e.to)});
     }
     std::ranges::sort(wanted, {}, &MeshEdge::key);
-    std::vector<WholeFacetEdge> out;
+    PoolVector<WholeFacetEdge> out;
     for (auto first = wanted.begin(); first != wanted.end();) {
         const std::size_t table = first->table;
         const auto end = std::ranges::find_if(first, wanted.end(),
@@ -109,7 +110,7 @@ std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
 }
 
 void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge> cancelled,
-                        std::vector<BoundaryEdge>& edges) {
+                        BoundaryEdges& edges) {
     if (cancelled.empty()) return;
     std::vector<bool> is_end(parts.bench.point_count(), false);
     for (const BoundaryEdge& e : cancelled) is_end[as_index(e.from)] = true;
@@ -118,14 +119,14 @@ void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge
         bool was_cancelled;
         BoundaryEdge edge;
     };
-    std::vector<Entry> entries;
+    PoolVector<Entry> entries;
     for (const BoundaryEdge& e : cancelled) entries.push_back({ends_of(e), true, e});
     for (const BoundaryEdge& e : edges)
         if (is_end[as_index(e.from)] && is_end[as_index(e.to)])
             entries.push_back({ends_of(e), false, e});
     std::ranges::stable_sort(entries, {}, &Entry::ends);
     const std::size_t before = edges.size();
-    std::vector<FacetEdge> here;
+    PoolVector<FacetEdge> here;
     for (std::size_t i = 0; i < entries.size();) {
         std::size_t j = i;
         here.clear();

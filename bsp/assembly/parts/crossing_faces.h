@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -36,7 +37,7 @@ struct FacetEdge {
 /// straight across each other. \pre edges on one segment have the same ends, those of `edges` are
 /// sorted by facet; so they come out, in the order of their loops where they are few.
 void put_back_crossings(const BoundaryParts& parts, std::span<const BoundaryEdge> cancelled,
-                        std::vector<BoundaryEdge>& edges);
+                        BoundaryEdges& edges);
 
 /// Of facets that pass through whole: an edge with the ends of one of the boundary's edges.
 struct WholeFacetEdge {
@@ -46,8 +47,8 @@ struct WholeFacetEdge {
 
 /// The edges of facets that pass through whole on edges of cut facets of the same mesh. There are
 /// some only where more than two facets of a mesh meet in an edge. O(whole facets of those meshes).
-[[nodiscard]] std::vector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
-                                                          std::span<const BoundaryEdge> edges);
+[[nodiscard]] PoolVector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
+                                                         std::span<const BoundaryEdge> edges);
 
 /// Of outlines of moved meshes: makes BoundaryParts::crossings. False where an outline crosses such
 /// an edge, or has a part of it. \pre edges on one segment have the same ends

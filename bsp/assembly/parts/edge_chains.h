@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -26,7 +27,7 @@ public:
     [[nodiscard]] bool are_simple(std::span<const BoundaryEdge> edges);
 
 private:
-    std::vector<std::uint32_t> seen_;  // by point: the last region that passed it
+    PoolVector<std::uint32_t> seen_;  // by point: the last region that passed it
     std::uint32_t region_ = 0;
 };
 

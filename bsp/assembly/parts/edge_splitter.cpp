@@ -261,7 +261,7 @@ void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis, std::span<PointI
     });
 }
 
-void EdgeSplitter::split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out) {
+void EdgeSplitter::split(std::span<const BoundaryEdge> edges, BoundaryEdges& out) {
     if (candidates_.empty()) {
         out.insert(out.end(), edges.begin(), edges.end());
         return;

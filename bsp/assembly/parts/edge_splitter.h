@@ -14,6 +14,7 @@
 #include <trisect/bsp/assembly/parts/vertex_columns.h>
 #include <trisect/bsp/assembly/parts/vertex_grid.h>
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -25,12 +26,12 @@ namespace trisect::detail {
 /// mostly two facets have one.
 class EdgeSplitter {
 public:
-    EdgeSplitter(const Workbench& bench, const std::vector<BoundaryFacet>& facets)
+    EdgeSplitter(const Workbench& bench, const PoolVector<BoundaryFacet>& facets)
         : bench_(bench), facets_(facets) {}
     void clear();
     void add_candidate(PointId p);
     /// Appends the parts of the edges to `out`, each edge's parts in order.
-    void split(std::span<const BoundaryEdge> edges, std::vector<BoundaryEdge>& out);
+    void split(std::span<const BoundaryEdge> edges, BoundaryEdges& out);
 
 private:
     using Candidate = VertexBoxes::Vertex;
@@ -53,8 +54,8 @@ private:
     void sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const;
 
     const Workbench& bench_;
-    const std::vector<BoundaryFacet>& facets_;
-    std::vector<Candidate> candidates_;
+    const PoolVector<BoundaryFacet>& facets_;
+    PoolVector<Candidate> candidates_;
     bool are_many_ = false;
     VertexGrid grid_;                       // of many candidates
     std::array<VertexColumns, 3> columns_;  // of these, once an edge is long and along an axis
@@ -62,9 +63,9 @@ private:
     std::vector<bool> is_listed_;           // by point: among the candidates
     std::size_t axis_ = 0;                  // that they are sorted along
     double widest_ = 0;                     // error of a candidate or an end
-    std::vector<PointId> inside_;           // of the edges that have looked, each along its edge
-    std::vector<Inside> known_;             // of many candidates
-    std::vector<std::uint32_t> slots_;      // of a hash table: 1 more than a place in known_, or 0
+    PoolVector<PointId> inside_;            // of the edges that have looked, each along its edge
+    PoolVector<Inside> known_;              // of many candidates
+    PoolVector<std::uint32_t> slots_;       // of a hash table: 1 more than a place in known_, or 0
 };
 
 }  // namespace trisect::detail

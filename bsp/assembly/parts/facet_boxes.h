@@ -13,6 +13,7 @@
 
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -51,7 +52,7 @@ struct FacetBox {
 class FacetBoxes {
 public:
     /// O(n log n)
-    explicit FacetBoxes(std::vector<FacetBox> boxes) : boxes_(std::move(boxes)) {
+    explicit FacetBoxes(PoolVector<FacetBox> boxes) : boxes_(std::move(boxes)) {
         if (!boxes_.empty()) (void)build(0, boxes_.size());
     }
     /// Calls `visit` with boxes that may contain both points, and ends where it returns false.
@@ -120,7 +121,7 @@ private:
             if (boxes_[i].meets(box)) visit(boxes_[i].facet);
     }
 
-    std::vector<FacetBox> boxes_;
+    PoolVector<FacetBox> boxes_;
     std::vector<Node> nodes_;
 };
 

@@ -8,6 +8,7 @@
 #include <trisect/brep/face/small_polygon.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -53,14 +54,14 @@ bool FacetCutter::is_all_of(const BoundaryFacet& f, std::span<const PointId> loo
 
 // In the order that the facet has.
 void FacetCutter::add_all_of(const BoundaryFacet& f, std::span<const PointId> loop,
-                             std::vector<PointId>& out) const {
+                             PoolVector<PointId>& out) const {
     const std::uint32_t first = f.source->mesh().triangles[f.facet][0];
     std::size_t i = 0;
     while (bench_.corner_name(loop[i]).second != first) ++i;
     for (std::size_t k = 0; k < 3; ++k) out.push_back(loop[(i + k) % 3]);
 }
 
-void FacetCutter::cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<PointId>& out) {
+void FacetCutter::cut_loop(const BoundaryFacet& f, std::size_t l, PoolVector<PointId>& out) {
     const auto loop = loops_.loop(l);
     if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
         cut_large(f, l, l + 1, out);
@@ -71,7 +72,7 @@ void FacetCutter::cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<Po
 
 // Vertices are rounded correctly, and all corners of a loop are used; so turns are those of rounded
 // corners, and few are left for integers.
-void FacetCutter::cut_small(std::span<const PointId> loop, std::vector<PointId>& out) {
+void FacetCutter::cut_small(std::span<const PointId> loop, PoolVector<PointId>& out) {
     const PlaneProjection::Axes axes = loops_.axes();
     rounded_.clear();
     exact_.clear();
@@ -122,7 +123,7 @@ int FacetCutter::exact_turn(std::span<const PointId> loop,
 
 // Loops [first, end) as one region.
 void FacetCutter::cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
-                            std::vector<PointId>& out) {
+                            PoolVector<PointId>& out) {
     points_.clear();
     ids_.clear();
     outline_.clear();

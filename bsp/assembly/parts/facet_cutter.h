@@ -16,6 +16,7 @@
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/assembly/parts/face_loops.h>
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -35,7 +36,7 @@ struct CutFacets {
         std::size_t begin = 0;  ///< of its triangles among the corners
     };
     std::vector<Facet> facets;
-    std::vector<PointId> corners;  ///< three a triangle
+    PoolVector<PointId> corners;  ///< three a triangle
 };
 
 /// Cuts facets into triangles; keeps its memory. Several may work on one boundary at once when its
@@ -52,15 +53,15 @@ public:
 private:
     [[nodiscard]] bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const;
     void add_all_of(const BoundaryFacet& f, std::span<const PointId> loop,
-                    std::vector<PointId>& out) const;
-    void cut_loop(const BoundaryFacet& f, std::size_t l, std::vector<PointId>& out);
-    void cut_small(std::span<const PointId> loop, std::vector<PointId>& out);
+                    PoolVector<PointId>& out) const;
+    void cut_loop(const BoundaryFacet& f, std::size_t l, PoolVector<PointId>& out);
+    void cut_small(std::span<const PointId> loop, PoolVector<PointId>& out);
     void add_rounded(PointId p, PlaneProjection::Axes axes);
     [[nodiscard]] int exact_turn(std::span<const PointId> loop,
                                  const std::array<std::uint32_t, 3>& corners,
                                  PlaneProjection::Axes axes);
     void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
-                   std::vector<PointId>& out);
+                   PoolVector<PointId>& out);
 
     const BoundaryParts& parts_;
     const Workbench& bench_;
@@ -69,8 +70,8 @@ private:
     RoundedPolygon rounded_;
     std::vector<HomogeneousPoint> exact_;  // of corners of a loop where it was needed
     std::vector<int> exact_of_;            // by corner of the loop
-    std::vector<std::uint32_t> local_;     // by PointId, while one face is triangulated
-    std::vector<PointId> ids_;
+    PoolVector<std::uint32_t> local_;      // by PointId, while one face is triangulated
+    PoolVector<PointId> ids_;
     std::vector<Point> points_;
     std::vector<IndexLoop> outline_;
 };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/source.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -151,8 +152,8 @@ private:
     }
 
     const Source* source_;
-    std::vector<std::uint8_t> marks_;    // a byte for each facet, filled up to a multiple of eight
-    std::vector<std::int32_t> numbers_;  // of every eighth facet: the first number from it on
+    std::vector<std::uint8_t> marks_;   // a byte for each facet, filled up to a multiple of eight
+    PoolVector<std::int32_t> numbers_;  // of every eighth facet: the first number from it on
 };
 
 }  // namespace trisect::detail

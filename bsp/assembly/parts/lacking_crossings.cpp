@@ -22,6 +22,7 @@
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/radix_sort.h>
 
 namespace trisect::detail {
@@ -57,13 +58,13 @@ private:
         return i;
     }
     void grow() {
-        std::vector<std::uint64_t> old(std::max<std::size_t>(64, 2 * slots_.size()), 0);
+        PoolVector<std::uint64_t> old(std::max<std::size_t>(64, 2 * slots_.size()), 0);
         old.swap(slots_);
         for (const std::uint64_t slot : old)
             if (slot != 0) slots_[place_of((slot >> 2U) << 2U)] = slot;
     }
 
-    std::vector<std::uint64_t> slots_;  // 0: none; else the side and 2 in the last bits
+    PoolVector<std::uint64_t> slots_;  // 0: none; else the side and 2 in the last bits
     std::size_t count_ = 0;
 };
 
@@ -354,7 +355,7 @@ private:
         by_facet_.resize(edges_.size());
         for (std::uint32_t i = 0; i < edges_.size(); ++i)
             by_facet_[first_[as_index(edges_[i].facet) + 1]++] = i;
-        std::vector<FacetBox> boxes;
+        PoolVector<FacetBox> boxes;
         for (std::size_t f = 0; f < parts_.facets.size(); ++f) {
             const auto edges = edges_of(static_cast<std::int32_t>(f));
             if (edges.empty()) continue;
@@ -370,15 +371,15 @@ private:
     }
 
     BoundaryParts& parts_;
-    std::vector<BoundaryEdge> edges_;
-    std::vector<std::uint32_t> by_facet_;  // their places, once they are needed
-    std::vector<std::uint32_t> first_;     // of these
-    std::optional<FacetBoxes> boxes_;      // of facets that have some
-    std::vector<OfPlane> planes_;          // of a segment
-    std::vector<FacetEdge> here_;          // of a segment
-    std::vector<BoundaryEdge> inside_;
-    std::vector<std::int32_t> ending_;  // facets that end there
-    std::vector<std::int32_t> others_;
+    BoundaryEdges edges_;
+    PoolVector<std::uint32_t> by_facet_;  // their places, once they are needed
+    PoolVector<std::uint32_t> first_;     // of these
+    std::optional<FacetBoxes> boxes_;     // of facets that have some
+    PoolVector<OfPlane> planes_;          // of a segment
+    PoolVector<FacetEdge> here_;          // of a segment
+    BoundaryEdges inside_;
+    PoolVector<std::int32_t> ending_;  // facets that end there
+    PoolVector<std::int32_t> others_;
     mutable FlatMap same_planes_;  // of two classes
     mutable KnownSides sides_;
 };

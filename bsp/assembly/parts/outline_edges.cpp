@@ -3,13 +3,13 @@
 #include <trisect/bsp/assembly/parts/outline_edges.h>
 
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
-void add_outlines(const NamedOutlines& outlines, BoundaryParts& parts,
-                  std::vector<BoundaryEdge>& edges) {
+void add_outlines(const NamedOutlines& outlines, BoundaryParts& parts, BoundaryEdges& edges) {
     check_stop(outlines.edges.size());
-    std::vector<std::int32_t> numbers;
+    PoolVector<std::int32_t> numbers;
     numbers.reserve(outlines.faces.size());
     for (const NamedOutlines::Face& face : outlines.faces) {
         const FacetMarks& marks = parts.sources[parts.table_of(face.source)];

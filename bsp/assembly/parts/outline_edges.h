@@ -12,7 +12,6 @@ namespace trisect::detail {
 
 /// Appends the edges. \pre the faces are present and worked on in the marks, and numbered; all
 /// sources that name corners have marks.
-void add_outlines(const NamedOutlines& outlines, BoundaryParts& parts,
-                  std::vector<BoundaryEdge>& edges);
+void add_outlines(const NamedOutlines& outlines, BoundaryParts& parts, BoundaryEdges& edges);
 
 }  // namespace trisect::detail

@@ -27,6 +27,7 @@
 #include <trisect/kernel/number/triangle_normal.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -34,8 +35,7 @@ namespace {
 
 class Sheets {
 public:
-    Sheets(BoundaryParts& parts, std::vector<PointId>& representatives,
-           std::vector<BoundaryEdge>& edges)
+    Sheets(BoundaryParts& parts, PoolVector<PointId>& representatives, BoundaryEdges& edges)
         : parts_(parts), bench_(parts.bench), representatives_(representatives), edges_(edges) {}
 
     [[nodiscard]] bool remove() {
@@ -50,7 +50,7 @@ public:
         }
         for (const auto& [a, b] : opposite_)
             if (!remove_common(outlines_[a], outlines_[b])) return false;
-        std::vector<BoundaryEdge> out;
+        BoundaryEdges out;
         out.reserve(edges_.size());
         for (const Outline& o : outlines_) {
             const Edges edges = o.has_opposite ? Edges(o.left) : edges_of(o);
@@ -69,12 +69,12 @@ private:
         FacetBox box;
         std::ptrdiff_t first = 0;  // of its edges
         std::ptrdiff_t end = 0;
-        std::vector<BoundaryEdge> left;  // where it has an opposite, so far
+        BoundaryEdges left;  // where it has an opposite, so far
     };
     // Numbers of outlines.
     struct OfPlane {
-        PlaneId plane = -1;                                // of one of them
-        std::array<std::vector<std::uint32_t>, 2> facing;  // as that one does, or the other way
+        PlaneId plane = -1;                               // of one of them
+        std::array<PoolVector<std::uint32_t>, 2> facing;  // as that one does, or the other way
     };
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     enum class Fate : std::uint8_t { Unknown, Stays, Vanishes, GoesOver };
@@ -89,24 +89,23 @@ private:
     void list_edges();
     [[nodiscard]] double plane_number(const Outline& o, double extent) const;
     void find_pairs();
-    void add_to_plane(std::vector<OfPlane>& planes, std::uint32_t number) const;
+    void add_to_plane(PoolVector<OfPlane>& planes, std::uint32_t number) const;
     void find_pairs(const OfPlane& plane);
     void list_meeting(std::span<const std::uint32_t> some, std::span<const std::uint32_t> others,
-                      std::vector<Pair>& out);
+                      PoolVector<Pair>& out);
     [[nodiscard]] bool make_crossings();
     void cross_edges(const Outline& a, const Outline& b);
     void cross(const Outline& a, const BoundaryEdge& e, const BoundaryEdge& f);
     void merge_crossings(std::size_t first);
     void split_edges();
-    static void cancel_slits(std::vector<BoundaryEdge>& edges);
+    static void cancel_slits(BoundaryEdges& edges);
     [[nodiscard]] bool remove_common(Outline& a, Outline& b);
     static void match_edges(Edges a, Edges b, std::span<Fate> of_a, std::span<Fate> of_b);
     [[nodiscard]] bool decide(const Outline& own, const Outline& other, std::span<Fate> fates);
     void list_apart(const Outline& own, const Outline& other);
     void spread(Edges edges, std::uint32_t first, Fate fate, std::span<Fate> fates);
-    static void distribute(Edges own, std::span<const Fate> fates,
-                           std::vector<BoundaryEdge>& to_own, std::vector<BoundaryEdge>& to_other,
-                           std::int32_t other);
+    static void distribute(Edges own, std::span<const Fate> fates, BoundaryEdges& to_own,
+                           BoundaryEdges& to_other, std::int32_t other);
     [[nodiscard]] std::optional<bool> is_inside(const BoundaryEdge& edge,
                                                 const Outline& outline) const;
     [[nodiscard]] FacetBox box_of(const BoundaryEdge& e) const {
@@ -118,14 +117,14 @@ private:
 
     BoundaryParts& parts_;
     Workbench& bench_;
-    std::vector<PointId>& representatives_;
-    std::vector<BoundaryEdge>& edges_;
-    std::vector<Outline> outlines_;
-    std::vector<Pair> opposite_;   // facets of one plane that face opposite ways
-    std::vector<Pair> alongside_;  // and those that face the same way
-    std::vector<PointId> crossings_;
+    PoolVector<PointId>& representatives_;
+    BoundaryEdges& edges_;
+    PoolVector<Outline> outlines_;
+    PoolVector<Pair> opposite_;   // facets of one plane that face opposite ways
+    PoolVector<Pair> alongside_;  // and those that face the same way
+    PoolVector<PointId> crossings_;
     // Of two outlines:
-    std::vector<PointId> common_;  // vertices of the other one
+    PoolVector<PointId> common_;  // vertices of the other one
     std::vector<std::pair<PointId, std::uint32_t>> apart_;
 };
 
@@ -181,7 +180,7 @@ void Sheets::find_pairs() {
         order.emplace_back(plane_number(outlines_[i], extent), i);
     std::ranges::sort(order);
     constexpr double rounding = 1e-12;
-    std::vector<OfPlane> planes;
+    PoolVector<OfPlane> planes;
     for (std::size_t i = 0; i < order.size();) {
         if (i + 1 == order.size() || order[i + 1].first - order[i].first > rounding) {
             ++i;  // alone
@@ -196,7 +195,7 @@ void Sheets::find_pairs() {
     std::ranges::sort(alongside_);
 }
 
-void Sheets::add_to_plane(std::vector<OfPlane>& planes, std::uint32_t number) const {
+void Sheets::add_to_plane(PoolVector<OfPlane>& planes, std::uint32_t number) const {
     const BoundaryFacet& f = facet(outlines_[number]);
     const Plane& plane = bench_.plane_at(f.support);
     auto known = std::ranges::find_if(planes, [&](const OfPlane& p) {
@@ -211,7 +210,7 @@ void Sheets::add_to_plane(std::vector<OfPlane>& planes, std::uint32_t number) co
 void Sheets::find_pairs(const OfPlane& plane) {
     if (plane.facing[0].empty() || plane.facing[1].empty()) return;
     list_meeting(plane.facing[0], plane.facing[1], opposite_);
-    std::array<std::vector<std::uint32_t>, 2> some = plane.facing;
+    std::array<PoolVector<std::uint32_t>, 2> some = plane.facing;
     for (auto& all : some) {
         std::erase_if(all, [&](std::uint32_t i) { return !outlines_[i].has_opposite; });
         list_meeting(all, all, alongside_);
@@ -219,8 +218,8 @@ void Sheets::find_pairs(const OfPlane& plane) {
 }
 
 void Sheets::list_meeting(std::span<const std::uint32_t> some,
-                          std::span<const std::uint32_t> others, std::vector<Pair>& out) {
-    std::vector<FacetBox> boxes;
+                          std::span<const std::uint32_t> others, PoolVector<Pair>& out) {
+    PoolVector<FacetBox> boxes;
     for (const std::uint32_t i : some) {
         boxes.push_back(outlines_[i].box);
         boxes.back().facet = static_cast<std::int32_t>(i);
@@ -267,7 +266,7 @@ void Sheets::cross(const Outline& a, const BoundaryEdge& e, const BoundaryEdge& 
 void Sheets::merge_crossings(std::size_t first) {
     for (std::size_t p = first; p < bench_.point_count(); ++p)
         representatives_.push_back(static_cast<PointId>(p));
-    std::vector<PointId> values;
+    PoolVector<PointId> values;
     for_each_near_group(bench_, [&](std::span<const PointId> group) {
         if (as_index(group.back()) < first) return;
         values.clear();
@@ -291,7 +290,7 @@ void Sheets::merge_crossings(std::size_t first) {
 void Sheets::split_edges() {
     EdgeSplitter splitter(bench_, parts_.facets);
     for (const PointId p : crossings_) splitter.add_candidate(representatives_[as_index(p)]);
-    std::vector<BoundaryEdge> out;
+    BoundaryEdges out;
     splitter.split(edges_, out);
     edges_.swap(out);
     list_edges();
@@ -299,7 +298,7 @@ void Sheets::split_edges() {
 
 // Takes out edges that the facet has in both directions, at strips without a width, and sorts by
 // the ends.
-void Sheets::cancel_slits(std::vector<BoundaryEdge>& edges) {
+void Sheets::cancel_slits(BoundaryEdges& edges) {
     std::ranges::stable_sort(edges, {}, [](const BoundaryEdge& e) { return ends_of(e); });
     std::size_t left = 0;
     for (std::size_t i = 0; i < edges.size();) {
@@ -327,8 +326,8 @@ bool Sheets::remove_common(Outline& a, Outline& b) {
     if (!decide(a, b, of_a) || !decide(b, a, of_b)) return false;
     const auto stays = [](Fate fate) { return fate == Fate::Stays; };
     if (std::ranges::all_of(of_a, stays) && std::ranges::all_of(of_b, stays)) return true;
-    std::vector<BoundaryEdge> new_a;
-    std::vector<BoundaryEdge> new_b;
+    BoundaryEdges new_a;
+    BoundaryEdges new_b;
     distribute(a.left, of_a, new_a, new_b, b.facet);
     distribute(b.left, of_b, new_b, new_a, a.facet);
     cancel_slits(new_a);
@@ -377,7 +376,7 @@ void Sheets::list_apart(const Outline& own, const Outline& other) {
 // What goes on at a vertex that the other outline does not have stays on the same side of that.
 void Sheets::spread(Edges edges, std::uint32_t first, Fate fate, std::span<Fate> fates) {
     fates[first] = fate;
-    std::vector<std::uint32_t> found{first};
+    PoolVector<std::uint32_t> found{first};
     while (!found.empty()) {
         const BoundaryEdge& e = edges[found.back()];
         found.pop_back();
@@ -390,8 +389,8 @@ void Sheets::spread(Edges edges, std::uint32_t first, Fate fate, std::span<Fate>
     }
 }
 
-void Sheets::distribute(Edges own, std::span<const Fate> fates, std::vector<BoundaryEdge>& to_own,
-                        std::vector<BoundaryEdge>& to_other, std::int32_t other) {
+void Sheets::distribute(Edges own, std::span<const Fate> fates, BoundaryEdges& to_own,
+                        BoundaryEdges& to_other, std::int32_t other) {
     for (std::size_t i = 0; i < fates.size(); ++i) {
         BoundaryEdge e = own[i];
         if (fates[i] == Fate::Stays) to_own.push_back(e);
@@ -425,8 +424,8 @@ std::optional<bool> Sheets::is_inside(const BoundaryEdge& edge, const Outline& o
 
 }  // namespace
 
-bool remove_sheets(BoundaryParts& parts, std::vector<PointId>& representatives,
-                   std::vector<BoundaryEdge>& edges) {
+bool remove_sheets(BoundaryParts& parts, PoolVector<PointId>& representatives,
+                   BoundaryEdges& edges) {
     return Sheets(parts, representatives, edges).remove();
 }
 

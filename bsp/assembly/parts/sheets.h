@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -15,7 +16,7 @@ namespace trisect::detail {
 /// cross are made, and inserted into all edges. False where it is not known what is common. \pre
 /// the edges are of facets in special position, and their vertices are inserted; points may still
 /// be named
-[[nodiscard]] bool remove_sheets(BoundaryParts& parts, std::vector<PointId>& representatives,
-                                 std::vector<BoundaryEdge>& edges);
+[[nodiscard]] bool remove_sheets(BoundaryParts& parts, PoolVector<PointId>& representatives,
+                                 BoundaryEdges& edges);
 
 }  // namespace trisect::detail

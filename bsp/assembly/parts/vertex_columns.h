@@ -14,6 +14,7 @@
 
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -88,8 +89,8 @@ private:
 
     std::size_t axis_ = 0;
     std::span<const Vertex> vertices_;
-    std::vector<std::uint32_t> order_;  // column after column, each along the axis
-    std::vector<Column> columns_;       // a power of two of them, at most half full
+    PoolVector<std::uint32_t> order_;  // column after column, each along the axis
+    std::vector<Column> columns_;      // a power of two of them, at most half full
     std::array<double, 3> origin_{};
     double per_unit_ = 0;  // columns
 };
@@ -102,7 +103,7 @@ inline void VertexColumns::build(std::span<const Vertex> vertices, std::size_t a
     const std::size_t places = std::bit_ceil(2 * vertices.size());
     vertices_ = vertices;
     columns_.assign(places, {});
-    std::vector<std::uint32_t> slots;
+    PoolVector<std::uint32_t> slots;
     slots.reserve(vertices.size());
     for (const Vertex& v : vertices) {
         const std::uint32_t key = key_of(place_of(v.c));

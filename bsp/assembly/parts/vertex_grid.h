@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -77,8 +78,8 @@ private:
         return at;
     }
 
-    std::vector<Vertex> vertices_;  // cell after cell
-    std::vector<Cell> cells_;       // a power of two of them, at most half full
+    PoolVector<Vertex> vertices_;  // cell after cell
+    PoolVector<Cell> cells_;       // a power of two of them, at most half full
     int shift_ = 0;
     std::array<double, 3> origin_{};
     double per_unit_ = 0;  // cubes
@@ -101,7 +102,7 @@ inline void VertexGrid::build(std::span<const Vertex> vertices, double size) {
     const std::size_t places = std::bit_ceil(2 * vertices.size());
     shift_ = 64 - std::countr_zero(places);
     cells_.assign(places, {});
-    std::vector<std::uint32_t> slots;
+    PoolVector<std::uint32_t> slots;
     slots.reserve(vertices.size());
     for (const Vertex& v : vertices) {
         const std::uint64_t key = key_of(place_of(v.c));

@@ -15,6 +15,7 @@
 #include <trisect/bsp/assembly/parts/broken_edges.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -48,7 +49,7 @@ bool is_clearly_off(const LatticePoint& a, const LatticePoint& b, const LatticeP
 class NeighbourFinder {
 public:
     NeighbourFinder(const BoundaryParts& parts, std::span<const BoundaryEdge> edges,
-                    bool within_faces, BoundaryVertices& vertices, std::vector<WholeFacet>& whole)
+                    bool within_faces, BoundaryVertices& vertices, PoolVector<WholeFacet>& whole)
         : parts_(parts),
           edges_(edges),
           within_faces_(within_faces),
@@ -94,7 +95,7 @@ private:
         for_each_edge([&](Index a, Index b, std::uint32_t) { ++begin_[std::min(a, b) + 1]; });
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
         directed_.resize(begin_.back());
-        std::vector<std::size_t> fill(begin_.begin(), begin_.end() - 1);
+        PoolVector<std::size_t> fill(begin_.begin(), begin_.end() - 1);
         for_each_edge([&](Index a, Index b, std::uint32_t name) {
             directed_[fill[std::min(a, b)]++] = {std::max(a, b), name, a < b};
         });
@@ -152,9 +153,9 @@ private:
     std::span<const BoundaryEdge> edges_;
     bool within_faces_;
     BoundaryVertices& vertices_;
-    std::vector<WholeFacet>& whole_;
-    std::vector<std::size_t> begin_;
-    std::vector<Directed> directed_;
+    PoolVector<WholeFacet>& whole_;
+    PoolVector<std::size_t> begin_;
+    PoolVector<Directed> directed_;
 };
 
 }  // namespace
@@ -164,10 +165,10 @@ bool may_join(const BoundaryFacet& a, const BoundaryFacet& b, bool within_faces)
            (a.source == b.source && face_of(*a.source, a.facet) == face_of(*b.source, b.facet));
 }
 
-std::vector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
-                                          std::span<const BoundaryEdge> edges, bool within_faces,
-                                          BoundaryVertices& vertices) {
-    std::vector<WholeFacet> whole;
+PoolVector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
+                                         std::span<const BoundaryEdge> edges, bool within_faces,
+                                         BoundaryVertices& vertices) {
+    PoolVector<WholeFacet> whole;
     whole.reserve(parts.stats.whole_facets);
     for (const BoundaryEdge& e : edges) (void)vertices.of_point(e.from);
     for (std::uint32_t t = 0; t < parts.sources.size(); ++t) {
@@ -188,11 +189,10 @@ std::vector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
 }
 
 void add_joining_facets(std::span<const WholeFacet> whole, std::span<const BrokenEdge> broken,
-                        BoundaryVertices& vertices, BoundaryParts& parts,
-                        std::vector<BoundaryEdge>& edges) {
+                        BoundaryVertices& vertices, BoundaryParts& parts, BoundaryEdges& edges) {
     const std::size_t old_count = parts.facets.size();
     auto next_broken = broken.begin();
-    std::vector<PointId> chain;
+    PoolVector<PointId> chain;
     for (std::size_t n = 0; n < whole.size(); ++n) {
         const WholeFacet& w = whole[n];
         if (!w.joins) continue;
@@ -222,15 +222,15 @@ void add_joining_facets(std::span<const WholeFacet> whole, std::span<const Broke
         }
     }
     if (parts.facets.size() == old_count) return;
-    std::vector<std::int32_t> order(parts.facets.size());
+    PoolVector<std::int32_t> order(parts.facets.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](std::int32_t i) {
         const BoundaryFacet& f = parts.facets[as_index(i)];
         return std::tuple(f.source->serial(), f.facet, f.flipped, i);
     };
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return key(a) < key(b); });
-    std::vector<std::int32_t> place(order.size());
-    std::vector<BoundaryFacet> sorted;
+    PoolVector<std::int32_t> place(order.size());
+    PoolVector<BoundaryFacet> sorted;
     sorted.reserve(order.size());
     for (const std::int32_t i : order) {
         place[as_index(i)] = static_cast<std::int32_t>(sorted.size());

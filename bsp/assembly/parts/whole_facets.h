@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/assembly/parts/boundary_vertices.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -29,17 +30,16 @@ struct WholeFacet {
 /// All facets that pass through, in the order of facets. `edges` are those of the facets that do
 /// not. O(n log n): one counting sort of directed edges; planes are compared exactly only where
 /// doubles cannot distinguish them.
-[[nodiscard]] std::vector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
-                                                        std::span<const BoundaryEdge> edges,
-                                                        bool within_faces,
-                                                        BoundaryVertices& vertices);
+[[nodiscard]] PoolVector<WholeFacet> list_whole_facets(const BoundaryParts& parts,
+                                                       std::span<const BoundaryEdge> edges,
+                                                       bool within_faces,
+                                                       BoundaryVertices& vertices);
 
 struct BrokenEdge;
 
 /// Gives the facets that join edges, with the vertices inside broken ones: adds them to the facets
 /// of `parts`, which stay sorted, and their edges to `edges`.
 void add_joining_facets(std::span<const WholeFacet> whole, std::span<const BrokenEdge> broken,
-                        BoundaryVertices& vertices, BoundaryParts& parts,
-                        std::vector<BoundaryEdge>& edges);
+                        BoundaryVertices& vertices, BoundaryParts& parts, BoundaryEdges& edges);
 
 }  // namespace trisect::detail

@@ -15,6 +15,7 @@
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -123,7 +124,7 @@ private:
     std::vector<TracedEdge> edges_;
     std::vector<Start> starts_;
     bool sorted_starts_ = false;
-    std::vector<std::uint32_t> next_;  // of segments: the one that goes on
+    PoolVector<std::uint32_t> next_;  // of segments: the one that goes on
     OutlinePlane plane_;
     OutlineMeetings meetings_;
     std::array<std::vector<Stop>, 3> stops_;  // of edges, in the order of a walk

@@ -14,6 +14,7 @@
 #include <trisect/bsp/assembly/traced/operand_table.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -62,7 +63,7 @@ private:
         std::uint32_t edges = 0;
         std::uint32_t meetings = 0;
     };
-    std::vector<Entry> entries_;
+    PoolVector<Entry> entries_;
     std::vector<TracedSegment> segments_;
     std::vector<TracedEdge> edges_;
     std::vector<OutlineMeetings::Point> meetings_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/crossings.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -37,7 +38,7 @@ public:
 
 private:
     const std::vector<Crossings::Operand>& operands_;
-    std::vector<std::uint32_t> ranges_;  // the operand of the first facet of each; then the last
+    PoolVector<std::uint32_t> ranges_;  // the operand of the first facet of each; then the last
     unsigned shift_ = 0;
 };
 

@@ -13,6 +13,7 @@
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/predicates.h>
 #include <trisect/kernel/support/float4.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -97,8 +98,8 @@ private:
     std::vector<BoxRow> boxes_;
     std::vector<Point> points_;
     std::vector<Meeting> meetings_;
-    std::vector<std::uint32_t> first_;  // of segments
-    std::vector<std::uint32_t> next_;
+    PoolVector<std::uint32_t> first_;  // of segments
+    PoolVector<std::uint32_t> next_;
     std::size_t compared_ = 0;
 };
 

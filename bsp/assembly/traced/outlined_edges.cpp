@@ -31,7 +31,7 @@ public:
         parts.bench.reserve_unnamed(4 * parts.facets.size(), outlined.vertices.size());
     }
 
-    void add(const OutlinedFacets::Facet& facet, std::size_t slot, std::vector<BoundaryEdge>& out) {
+    void add(const OutlinedFacets::Facet& facet, std::size_t slot, BoundaryEdges& out) {
         const Crossings::Operand& o = operands_.operands[slot];
         FacetMarks& marks = marks_of(slot);
         const std::int32_t worked = marks.number_of_worked(facet.number - o.first, o.inside_above);
@@ -53,7 +53,7 @@ public:
     }
 
     // A facet in special position of which all is in the result.
-    void add_whole(std::uint32_t number, std::vector<BoundaryEdge>& out) {
+    void add_whole(std::uint32_t number, BoundaryEdges& out) {
         const std::size_t slot = operand_of_(number);
         const Crossings::Operand& o = operands_.operands[slot];
         const std::size_t table = parts_.table_of(sources_[slot]);
@@ -144,10 +144,10 @@ private:
     const OperandTable operand_of_;
     std::span<const Source* const> sources_;
     BoundaryParts& parts_;
-    std::vector<PointId> points_;                // by vertex, where they were asked for
-    std::vector<PlaneId> planes_;                // by facet, likewise
-    std::vector<std::vector<PointId>> corners_;  // by slot and vertex, where facets may share them
-    FacetMarks* marks_ = nullptr;                // of the last slot
+    PoolVector<PointId> points_;                // by vertex, where they were asked for
+    PoolVector<PlaneId> planes_;                // by facet, likewise
+    std::vector<PoolVector<PointId>> corners_;  // by slot and vertex, where facets may share them
+    FacetMarks* marks_ = nullptr;               // of the last slot
     std::size_t marked_slot_ = 0;
 };
 
@@ -155,7 +155,7 @@ private:
 
 void add_outlined(const OutlinedFacets& outlined, const Crossings& operands,
                   std::span<const Source* const> sources, BoundaryParts& parts,
-                  std::vector<BoundaryEdge>& edges) {
+                  BoundaryEdges& edges) {
     check_stop(outlined.edges.size());
     edges.reserve(edges.size() + outlined.edges.size());
     OutlinedEdges all(outlined, operands, sources, parts);

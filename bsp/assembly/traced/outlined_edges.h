@@ -16,6 +16,6 @@ namespace trisect::detail {
 /// facets are present and worked on in the marks, and numbered
 void add_outlined(const OutlinedFacets& outlined, const Crossings& operands,
                   std::span<const Source* const> sources, BoundaryParts& parts,
-                  std::vector<BoundaryEdge>& edges);
+                  BoundaryEdges& edges);
 
 }  // namespace trisect::detail

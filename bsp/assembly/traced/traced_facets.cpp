@@ -27,6 +27,7 @@
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/ordered_parts.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -38,7 +39,7 @@ constexpr std::size_t least_facets = 256;
 // Names what is traced. Names belong to one thread, and are given in the order of the facets.
 class Tracer {
 public:
-    Tracer(const Crossings& crossings, BoundaryParts& parts, std::vector<BoundaryEdge>& edges)
+    Tracer(const Crossings& crossings, BoundaryParts& parts, BoundaryEdges& edges)
         : crossings_(crossings),
           operand_of_(crossings.operands),
           parts_(parts),
@@ -100,7 +101,7 @@ private:
     PointId corner(std::size_t operand, std::uint32_t facet, int i) {
         const Source* const source = marks_[operand]->source();
         if (!by_number_) return parts_.bench.corner(source, facet, i);
-        std::vector<PointId>& known = corner_ids_[operand];
+        PoolVector<PointId>& known = corner_ids_[operand];
         if (known.empty()) known.resize(source->mesh().points.size(), -1);
         const std::uint32_t vertex = source->corner_index(facet, i);
         if (known[vertex] < 0) known[vertex] = parts_.bench.add_corner(source, vertex);
@@ -273,19 +274,19 @@ private:
     const Crossings& crossings_;
     const OperandTable operand_of_;
     BoundaryParts& parts_;
-    std::vector<BoundaryEdge>& edges_;
-    std::vector<FacetMarks*> marks_;                // by operand
-    std::vector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
-    std::vector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
+    BoundaryEdges& edges_;
+    std::vector<FacetMarks*> marks_;               // by operand
+    PoolVector<std::array<PointId, 2>> ends_;      // of the pairs, where they were requested
+    PoolVector<std::array<PlaneId, 2>> edges_of_;  // of their facets, likewise
     const bool by_number_;
-    std::vector<PlaneId> planes_;  // the same by number of the facet: of the crossings where
-                                   // by_number_, else of those that are worked on
-    std::vector<std::vector<PointId>> corner_ids_;  // by operand and vertex, where by_number_
+    PoolVector<PlaneId> planes_;  // the same by number of the facet: of the crossings where
+                                  // by_number_, else of those that are worked on
+    std::vector<PoolVector<PointId>> corner_ids_;  // by operand and vertex, where by_number_
     // Of one facet:
     TracedFacet traced_;
     std::size_t operand_ = 0;
     std::array<PointId, 3> corners_{};  // where they were requested
-    std::vector<PointId> meetings_;     // of the outline, likewise
+    PoolVector<PointId> meetings_;      // of the outline, likewise
     PolygonRef ref_;
     PlaneId own_ = -1;  // of its first edge
     PlaneId own_support_ = -1;
@@ -293,8 +294,8 @@ private:
 
 }  // namespace
 
-void trace_facets(const Crossings& crossings, BoundaryParts& parts,
-                  std::vector<BoundaryEdge>& edges, std::uint32_t threads) {
+void trace_facets(const Crossings& crossings, BoundaryParts& parts, BoundaryEdges& edges,
+                  std::uint32_t threads) {
     Tracer(crossings, parts, edges).run(threads);
 }
 

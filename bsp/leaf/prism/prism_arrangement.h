@@ -19,6 +19,7 @@
 #include <trisect/bsp/leaf/prism/prism_crossings.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -148,7 +149,7 @@ private:
     std::array<bool, 2> cap_is_left_{};
     std::array<std::int32_t, 2> faces_here_{};
 
-    std::vector<CapEdge> cap_edges_;  // their faces: twice the position, one more if it is up
+    PoolVector<CapEdge> cap_edges_;  // their faces: twice the position, one more if it is up
     NamedOutlines outlines_;
 };
 

@@ -12,6 +12,7 @@
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/leaf/leaf_work.h>
 #include <trisect/kernel/number/flat_corner.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -87,10 +88,10 @@ private:
     void find_outside(const LeafProblem& problem);
 
     std::size_t axis_ = 0;
-    std::vector<PrismSideFace> side_faces_;
-    std::vector<PrismCap> caps_;
+    PoolVector<PrismSideFace> side_faces_;
+    PoolVector<PrismCap> caps_;
     std::vector<Coordinate> positions_;
-    std::vector<PolygonRef> named_;
+    PoolVector<PolygonRef> named_;
     std::vector<std::uint8_t> outside_;
 };
 

@@ -24,7 +24,6 @@ namespace {
 using trisect::detail::both_at_once;
 using trisect::detail::on_threads;
 using trisect::detail::ParallelParts;
-using trisect::detail::resize_on_threads;
 
 TEST(ParallelParts, CoverEveryNumberOnce) {
     for (const std::size_t size : {0UL, 1UL, 2UL, 7UL, 1000UL, 4097UL}) {
@@ -86,19 +85,6 @@ TEST(ParallelParts, TwoThingsAtOnce) {
         }
         return 0;
     });
-}
-
-TEST(ParallelParts, ResizedVectorsKeepWhatTheyHave) {
-    for (const std::uint32_t threads : {0U, 1U, 2U}) {
-        std::vector<std::uint32_t> values(100, 7);
-        for (const std::size_t size : {100UL, 60UL, 1'000'000UL, 1'000'000UL, 0UL}) {
-            const std::size_t before = values.size();
-            std::vector<std::uint32_t> expected = values;
-            expected.resize(size);
-            resize_on_threads(values, size, threads);
-            EXPECT_EQ(values, expected) << before << " to " << size;
-        }
-    }
 }
 
 // Measured coordinates, numbers with a common unit, and one that has no place.

@@ -63,7 +63,7 @@ void compare(const Workbench& bench, const BoundaryFacet& f, const BoundaryEdge&
 void compare_all(const Solid& solid, Count& count) {
     BoundaryParts parts;
     trisect::detail::gather_parts(*trisect::detail::state_of(solid), parts, false);
-    std::vector<BoundaryEdge> edges = parts.edges;
+    BoundaryEdges edges = parts.edges;
     trisect::detail::join_facets(parts, edges);
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t end = i;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/kernel/support/ready_memory.h>
+
+#include <cstdint>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace trisect::detail {
+
+#if defined(__linux__)
+
+namespace {
+
+// At both ends up to a large page (2 MiB) has none.
+constexpr std::size_t least_for_large_pages = std::size_t{4} << 20;
+
+// Of larger arrays only what is written takes memory, a large page at a time.
+constexpr std::size_t most_at_once = std::size_t{1} << 25;
+
+// Since Linux 5.14; the headers may be older. Systems without it refuse.
+constexpr int populate_write = 23;
+
+}  // namespace
+
+void make_ready(void* memory, std::size_t bytes) noexcept {
+    if (bytes < least_to_make_ready) return;
+    // Whole small pages, which is what the system takes.
+    constexpr std::uintptr_t page = 4096;
+    const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) & ~(page - 1);
+    const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) & ~(page - 1);
+    if (begin >= end) return;
+    auto* const first = reinterpret_cast<void*>(begin);
+    if (bytes >= least_for_large_pages) (void)madvise(first, end - begin, MADV_HUGEPAGE);
+    if (bytes <= most_at_once) (void)madvise(first, end - begin, populate_write);
+}
+
+#else
+
+void make_ready(void* /*memory*/, std::size_t /*bytes*/) noexcept {}
+
+#endif
+
+}  // namespace trisect::detail
