@@ -210,7 +210,7 @@ void Gatherer::gather(const PrismOutlines& prisms) {
 // False where it takes the tree of the solid.
 bool Gatherer::finish() {
     const std::size_t traced = edges_.size();
-    axis_faces_ = AxisFaces::of(out_);
+    axis_faces_ = AxisFaces::of(out_, threads_);
     if (by_planes_ && traced == 0) choose_axis_faces();
     for (AssembledLeaf& leaf : leaves_) {
         if (out_.stats.traced_facets == out_.facets.size()) break;

@@ -36,11 +36,15 @@
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
 namespace {
+
+// Fewer are not worth a part.
+constexpr std::size_t least_planes = 8;
 
 template <class Number>
 bool is_across_an_axis(const PolygonRef& r) {
@@ -141,6 +145,7 @@ void AxisFaceOutlines<Number>::choose(std::span<const Leaf> leaves) {
         check_stop(1 + leaves[i].polygons->size());
         block_leaf(leaves[i]);
     }
+    read_all_units();
     judge();
 }
 
@@ -197,7 +202,7 @@ void AxisFaceOutlines<Number>::read_leaf(const Leaf& leaf) {
         }
         ++i;
     }
-    if (leaf.occupancy != nullptr) read_units(*leaf.occupancy, leaf.complemented);
+    if (leaf.occupancy != nullptr) with_units_.push_back(&leaf);
 }
 
 // Its plane is not taken. Facets of one plane mostly come one after the other.
@@ -227,33 +232,46 @@ void AxisFaceOutlines<Number>::read_facet(const PolygonRef& facet, std::int32_t 
         face_plane.is_general = true;
 }
 
+// Outlines of different planes have nothing in common.
 template <class Number>
-void AxisFaceOutlines<Number>::read_units(const OccupancyGrid& occupancy, bool complemented) {
+void AxisFaceOutlines<Number>::read_all_units() {
+    // More would look at all layers too often.
+    const std::uint32_t divisor = threads_ == 1 || with_units_.size() < 16 ? 1 : 4;
+    ParallelParts(3 * divisor, divisor == 1 ? 1 : threads_, 1)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                for (const Leaf* const leaf : with_units_)
+                    read_units(*leaf, {i % 3, divisor, static_cast<std::uint32_t>(i / 3)});
+        });
+    with_units_ = {};
+}
+
+template <class Number>
+void AxisFaceOutlines<Number>::read_units(const Leaf& leaf, const UnitsOf& some) {
+    const OccupancyGrid& occupancy = *leaf.occupancy;
     std::array<std::vector<Number>, 3> planes;
     for (std::size_t k = 0; k < 3; ++k)
         for (const Int128 at : occupancy.planes[k]) planes[k].push_back(Numbers::from_wide(at));
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::vector<OccupancyGrid::Layer> layers = occupancy.layers(k);
-        const UnitFrame frame = UnitFrame::of(k);
-        typename Outline::Units units;
-        units.row_axis = static_cast<std::uint8_t>((frame.row_axis + 2 - k) % 3);
-        units.row_planes = planes[frame.row_axis];
-        units.bit_planes = planes[frame.bit_axis];
-        for (std::size_t p = 1; p < layers.size(); ++p) {
-            const OccupancyGrid::Layer& low = layers[p - 1];
-            const OccupancyGrid::Layer& high = layers[p];
-            if (low == high) continue;
-            const std::int32_t face_plane = face_plane_ids_.find(key_of(k, planes[k][p]));
-            TRISECT_EXPECTS(face_plane >= 0, "no facet bounds a set where it ends");
-            if (face_planes_[as_index(face_plane)].is_general) continue;
-            for (const bool inside_low : {true, false}) {
-                std::uint64_t any = 0;
-                for (std::size_t r = 0; r < units.rows.size(); ++r)
-                    any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
-                if (any != 0)
-                    face_planes_[as_index(face_plane)].outline.add(units,
-                                                                   inside_low != complemented);
-            }
+    const std::vector<OccupancyGrid::Layer> layers = occupancy.layers(some.axis);
+    const UnitFrame frame = UnitFrame::of(some.axis);
+    typename Outline::Units units;
+    units.row_axis = static_cast<std::uint8_t>((frame.row_axis + 2 - some.axis) % 3);
+    units.row_planes = planes[frame.row_axis];
+    units.bit_planes = planes[frame.bit_axis];
+    for (std::size_t p = 1; p < layers.size(); ++p) {
+        const OccupancyGrid::Layer& low = layers[p - 1];
+        const OccupancyGrid::Layer& high = layers[p];
+        if (low == high) continue;
+        const std::int32_t number = face_plane_ids_.find(key_of(some.axis, planes[some.axis][p]));
+        TRISECT_EXPECTS(number >= 0, "no facet bounds a set where it ends");
+        FacePlane& face_plane = face_planes_[as_index(number)];
+        if (face_plane.is_general || static_cast<std::uint32_t>(number) % some.divisor != some.rest)
+            continue;
+        for (const bool inside_low : {true, false}) {
+            std::uint64_t any = 0;
+            for (std::size_t r = 0; r < units.rows.size(); ++r)
+                any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
+            if (any != 0) face_plane.outline.add(units, inside_low != leaf.complemented);
         }
     }
 }
@@ -382,7 +400,11 @@ void AxisFaceOutlines<Number>::note_corners(const PolygonRef& part, Facet& facet
 
 template <class Number>
 void AxisFaceOutlines<Number>::judge() {
-    for (FacePlane& s : face_planes_) s.is_general = s.is_general || !s.outline.finish();
+    ParallelParts(face_planes_.size(), threads_, least_planes)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (FacePlane& s : std::span(face_planes_).subspan(begin, end - begin))
+                s.is_general = s.is_general || !s.outline.finish();
+        });
     for (std::size_t i = 0; i < facets_.size(); ++i) {
         const Facet& f = facets_[i];
         if (f.face_plane < 0) continue;
@@ -718,17 +740,29 @@ void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
     make_stops();
     for (std::size_t i = 0; i < others_.size(); ++i)
         (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
-    // In the order of their facets.
-    std::vector<std::pair<std::int32_t, std::size_t>> faces;
-    for (std::size_t i = 0; i < face_planes_.size(); ++i)
-        for (const std::int32_t first : face_planes_[i].first)
-            if (first >= 0 && !face_planes_[i].is_general) faces.emplace_back(first, i);
-    std::ranges::sort(faces);
     edges.reserve(edges.size() + count_edges());
-    for (const auto& [first, face_plane] : faces) {
-        check_stop(face_planes_[face_plane].outline.intervals().size());
-        make_edges_of(face_planes_[face_plane], first == face_planes_[face_plane].first[1], edges);
+    for (const Face& face : faces_in_order()) {
+        check_stop(face.intervals.size());
+        make_edges_of(face, edges);
     }
+}
+
+// In the order of their facets.
+template <class Number>
+auto AxisFaceOutlines<Number>::faces_in_order() const -> std::vector<Face> {
+    std::vector<Face> faces;
+    for (std::size_t i = 0; i < face_planes_.size(); ++i)
+        for (const bool faces_up : {false, true})
+            if (const std::int32_t first = face_planes_[i].first[faces_up ? 1 : 0];
+                first >= 0 && !face_planes_[i].is_general)
+                faces.push_back({first, i, faces_up, {}});
+    std::ranges::sort(faces, {}, &Face::first);
+    ParallelParts(faces.size(), threads_, least_planes)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (Face& f : std::span(faces).subspan(begin, end - begin))
+                f.intervals = face_planes_[f.face_plane].outline.loops(f.faces_up);
+        });
+    return faces;
 }
 
 template <class Number>
@@ -740,19 +774,18 @@ std::size_t AxisFaceOutlines<Number>::count_edges() const {
 }
 
 template <class Number>
-void AxisFaceOutlines<Number>::make_edges_of(FacePlane& face_plane, bool faces_up,
-                                             BoundaryEdges& edges) {
-    const std::int32_t first = face_plane.first[faces_up ? 1 : 0];
-    BoundaryFacet& f = parts_.facets[as_index(first)];
+void AxisFaceOutlines<Number>::make_edges_of(const Face& face, BoundaryEdges& edges) {
+    FacePlane& face_plane = face_planes_[face.face_plane];
+    BoundaryFacet& f = parts_.facets[as_index(face.first)];
     f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
     f.parts = 1;
-    for (const std::uint32_t n : face_plane.outline.loops(faces_up)) {
+    for (const std::uint32_t n : face.intervals) {
         const Interval& s = face_plane.outline.intervals()[n];
         const std::size_t across = across_of(face_plane, s);
         const std::size_t along = along_of(face_plane, s);
         Ranks at = line_of(face_plane, s);
         const FacePlane& beside = face_plane_at_rank(across, at[across]);
-        BoundaryEdge e{-1, -1, first, {}};
+        BoundaryEdge e{-1, -1, face.first, {}};
         e.line = {plane_of(across, at[across]), s.is_low == (beside.plane.sign > 0)};
         const auto stops = std::span(stops_).subspan(
             face_plane.stops[n].first, face_plane.stops[n].end - face_plane.stops[n].first);

@@ -23,7 +23,8 @@ namespace trisect::detail {
 template <class Number>
 class AxisFaceOutlines final : public AxisFaces {
 public:
-    explicit AxisFaceOutlines(BoundaryParts& parts) : parts_(parts) {}
+    AxisFaceOutlines(BoundaryParts& parts, std::uint32_t threads)
+        : parts_(parts), threads_(threads) {}
 
     void choose(std::span<const Leaf> leaves) override;
     void note_vertices(std::span<const BoundaryEdge> edges) override;
@@ -115,7 +116,14 @@ private:
     void block_leaf(const Leaf& leaf);
     void read_facet(const PolygonRef& facet, std::int32_t number, const OccupancyGrid::Part& part,
                     const Cell& cell);
-    void read_units(const OccupancyGrid& occupancy, bool complemented);
+    void read_all_units();
+    // Those between layers across an axis, of planes whose number leaves that rest.
+    struct UnitsOf {
+        std::size_t axis = 0;
+        std::uint32_t divisor = 1;
+        std::uint32_t rest = 0;
+    };
+    void read_units(const Leaf& leaf, const UnitsOf& some);
     void pass(const PolygonRef& facet);
     [[nodiscard]] FacePlane& face_plane_of(const PolygonRef& polygon, std::int32_t number);
     [[nodiscard]] bool count_part(FacePlane& face_plane, std::int32_t number);
@@ -142,7 +150,15 @@ private:
     void make_stops();
     void add_line(FacePlane& face_plane, const Interval& interval);
     [[nodiscard]] std::size_t count_edges() const;
-    void make_edges_of(FacePlane& face_plane, bool faces_up, BoundaryEdges& edges);
+    // A face: all of a plane with one facing.
+    struct Face {
+        std::int32_t first = -1;  // of its facets
+        std::size_t face_plane = 0;
+        bool faces_up = false;
+        PoolVector<std::uint32_t> intervals;  // loop after loop
+    };
+    [[nodiscard]] std::vector<Face> faces_in_order() const;
+    void make_edges_of(const Face& face, BoundaryEdges& edges);
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, Number at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
@@ -162,6 +178,8 @@ private:
     static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
 
     BoundaryParts& parts_;
+    std::uint32_t threads_;
+    std::vector<const Leaf*> with_units_;
     const Source* last_source_ = nullptr;
     std::size_t last_table_ = 0;
     std::optional<Plane> last_passed_;
@@ -184,7 +202,7 @@ private:
     std::array<std::vector<Number>, 3> coordinates_;         // sorted
     std::array<PoolVector<std::int32_t>, 3> face_plane_of_;  // by rank
     std::array<std::vector<Other>, 3> other_stops_;          // sorted
-    std::vector<Stop> stops_;                                // line by line
+    PoolVector<Stop> stops_;                                 // line by line
     std::vector<Stops> all_lines_;    // where queries are possible, and their keys
     std::array<FlatMap, 3> lines_;    // by axis
     PoolVector<std::uint32_t> line_;  // the places on the line in the making

@@ -31,8 +31,9 @@ public:
         const OccupancyGrid* occupancy = nullptr;
     };
 
-    /// For all sources of the parts. They must be listed, and outlive it.
-    [[nodiscard]] static std::unique_ptr<AxisFaces> of(BoundaryParts& parts);
+    /// For all sources of the parts. They must be listed, and outlive it. `threads` as in
+    /// ParallelParts.
+    [[nodiscard]] static std::unique_ptr<AxisFaces> of(BoundaryParts& parts, std::uint32_t threads);
 
     AxisFaces() = default;
     AxisFaces(const AxisFaces&) = delete;

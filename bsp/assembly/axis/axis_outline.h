@@ -171,8 +171,8 @@ private:
                                       const std::vector<bool>& used) const;
     [[nodiscard]] bool add_interval(std::size_t kind, const Change& from, Number to, int cover);
 
-    std::array<std::vector<Change>, 4> changes_;  // by facing and axis
-    std::vector<AxisInterval<Number>> intervals_;
+    std::array<PoolVector<Change>, 4> changes_;  // by facing and axis
+    PoolVector<AxisInterval<Number>> intervals_;
     std::vector<Run> runs_;
     std::array<std::size_t, 5> first_run_{};  // by facing and axis
 };
