@@ -261,8 +261,13 @@ private:
                      std::span<const Point3d> rounded) {
         PoolVector<std::uint32_t> at(made.size(), no_number);
         std::size_t corners = 0;
-        for (const CutFacets& part : cut) corners += part.corners.size();
+        std::size_t facets = 1;
+        for (const CutFacets& part : cut) {
+            corners += part.corners.size();
+            facets += part.facets.size();
+        }
         worked_.reserve(corners);
+        worked_facets_.reserve(facets);
         for (const CutFacets& part : cut) {
             for (const CutFacets::Facet& f : part.facets)
                 worked_facets_.push_back(

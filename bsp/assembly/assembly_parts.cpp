@@ -108,10 +108,12 @@ private:
     void add_outlined_edges(const UndividedMeshes& meshes);
     void number_facets();
     void reserve_names() { out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size()); }
-    // In special position most points are corners, and nothing is found by name (traced_facets.h).
+    // In special position planes and corners are not found by name (traced_facets.h).
     void reserve_names(const Crossings& crossings) {
         if (crossings.special.empty()) return reserve_names();
-        out_.bench.reserve_unnamed(4 * out_.facets.size(), out_.facets.size());
+        // Each place where an edge pierces a facet is in two pairs.
+        out_.bench.reserve_points_on_edges(4 * out_.facets.size(), out_.facets.size(),
+                                           crossings.pairs.size());
     }
     void make_parts(AssembledLeaf& leaf);
     void make_list_parts(const AssembledLeaf& leaf);

@@ -151,7 +151,7 @@ void Crossings::sort_pairs() {
     using Key = std::pair<std::uint64_t, std::uint32_t>;
     std::uint64_t last = 0;
     for (const FacetCrossing& c : pairs) last = std::max(last, std::uint64_t{c.facets[1]});
-    std::vector<Key> keys;
+    PoolVector<Key> keys;
     keys.reserve(pairs.size());
     for (const FacetCrossing& c : pairs)
         keys.emplace_back(c.facets[0] * (last + 1) + c.facets[1],
@@ -160,7 +160,7 @@ void Crossings::sort_pairs() {
     keys.erase(std::unique(keys.begin(), keys.end(),
                            [](const Key& a, const Key& b) { return a.first == b.first; }),
                keys.end());
-    std::vector<FacetCrossing> sorted;
+    PoolVector<FacetCrossing> sorted;
     sorted.reserve(keys.size());
     for (const auto& [facets, at] : keys) sorted.push_back(pairs[at]);
     pairs = std::move(sorted);

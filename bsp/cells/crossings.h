@@ -14,6 +14,7 @@
 #include <trisect/bsp/cells/infinitesimal_shift.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -58,7 +59,7 @@ struct Crossings {
         friend auto operator<=>(const Containment&, const Containment&) = default;
     };
     std::vector<Operand> operands;          ///< by slot
-    std::vector<FacetCrossing> pairs;       ///< sorted by facets, each once
+    PoolVector<FacetCrossing> pairs;        ///< sorted by facets, each once
     std::vector<std::uint32_t> uncertain;   ///< facets, sorted
     std::vector<Containment> containments;  ///< until arrange()
     std::vector<std::uint32_t> hidden;  ///< facets that no leaf has seen crossed, until arrange()

@@ -51,6 +51,13 @@ void Workbench::reserve_unnamed(std::size_t planes, std::size_t points) {
     points_.reserve(points);
 }
 
+void Workbench::reserve_points_on_edges(std::size_t planes, std::size_t points,
+                                        std::size_t on_edges) {
+    reserve_unnamed(planes, points + on_edges);
+    line_ids_.reserve(on_edges / 2);
+    point_ids_.reserve(on_edges);
+}
+
 PlaneId Workbench::add_plane(const PlaneName& name, PlaneId support) {
     const auto id = static_cast<PlaneId>(planes_.size());
     planes_.push_back({name, id, support});

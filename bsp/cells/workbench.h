@@ -134,6 +134,8 @@ public:
     /// Room for so many planes and points without growing on the way, with their names or without.
     void reserve(std::size_t planes, std::size_t points);
     void reserve_unnamed(std::size_t planes, std::size_t points);
+    /// The same, but for so many more points that are named by an edge and a plane.
+    void reserve_points_on_edges(std::size_t planes, std::size_t points, std::size_t on_edges);
     /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
     /// From now on several threads may call what is const. Nothing else may be called any more.
@@ -186,31 +188,51 @@ private:
         std::int32_t line = -1;
         mutable std::int32_t place = -1;  // among the planes that were made
     };
-    /// Planes that stay where they are while others are made.
+    /// Planes that stay where they are while others are made. Most benches make few: the first
+    /// block is small.
     class MadePlanes {
     public:
         [[nodiscard]] const Plane& at(std::int32_t i) const {
-            return (*blocks_[as_index(i) / block_size])[as_index(i) % block_size];
+            const std::size_t n = as_index(i);
+            return n < few ? few_.data()[n] : blocks_[block_of(n)].data()[place_of(n)];
         }
         std::int32_t add(const Plane& plane) {
-            if (as_index(count_) == block_size * blocks_.size())
-                blocks_.push_back(std::make_unique<Block>());
-            (*blocks_[as_index(count_) / block_size])[as_index(count_) % block_size] = plane;
+            const std::size_t n = as_index(count_);
+            if (n < few) {
+                put(few_, n, few, plane);
+            } else {
+                if (block_of(n) == blocks_.size()) blocks_.emplace_back();
+                put(blocks_[block_of(n)], place_of(n), many, plane);
+            }
             return count_++;
         }
         [[nodiscard]] std::size_t count() const { return as_index(count_); }
         /// For so many in all the table of blocks stays where it is.
-        void reserve(std::size_t count) { blocks_.reserve(count / block_size + 1); }
+        void reserve(std::size_t count) { blocks_.reserve(count / many + 1); }
         void clear() { count_ = 0; }
         void free() {
             clear();
+            few_ = {};
             blocks_.clear();
         }
 
     private:
-        static constexpr std::size_t block_size = 32;
-        using Block = std::array<Plane, block_size>;
-        std::vector<std::unique_ptr<Block>> blocks_;
+        static constexpr std::size_t few = 32;
+        static constexpr std::size_t many = 512;
+        static std::size_t block_of(std::size_t n) { return (n - few) / many; }
+        static std::size_t place_of(std::size_t n) { return (n - few) % many; }
+        // Others may be read at the same time: a block never grows.
+        static void put(PoolVector<Plane>& block, std::size_t place, std::size_t size,
+                        const Plane& plane) {
+            if (place < block.size()) {
+                block[place] = plane;
+                return;
+            }
+            block.reserve(size);
+            block.push_back(plane);
+        }
+        PoolVector<Plane> few_;
+        std::vector<PoolVector<Plane>> blocks_;
         std::int32_t count_ = 0;
     };
 

@@ -24,6 +24,7 @@
 #include <trisect/bsp/half_spaces/cutting_plane.h>
 #include <trisect/bsp/half_spaces/parallel_planes.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -98,7 +99,7 @@ private:
     // What some of the facets are, in their order.
     struct Part {
         std::vector<std::uint32_t> uncrossed;
-        std::vector<FacetCrossing> pairs;
+        PoolVector<FacetCrossing> pairs;
     };
 
     [[nodiscard]] Sides sides_at(const LatticePoint& p) const {

@@ -17,6 +17,7 @@
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/half_spaces/cutting_plane.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -95,7 +96,7 @@ private:
     // What some of the facets are, in their order.
     struct Part {
         std::vector<std::vector<std::uint32_t>> uncrossed;  // by slab
-        std::vector<std::vector<FacetCrossing>> pairs;      // by plane
+        std::vector<PoolVector<FacetCrossing>> pairs;       // by plane
     };
 
     // Between planes that cut nothing.

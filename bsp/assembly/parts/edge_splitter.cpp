@@ -267,7 +267,10 @@ void EdgeSplitter::split(std::span<const BoundaryEdge> edges, BoundaryEdges& out
         return;
     }
     sort_candidates(edges);
-    if (are_many_) make_slots(std::bit_ceil(edges.size()));  // mostly each edge comes twice
+    if (are_many_) {
+        make_slots(std::bit_ceil(edges.size()));  // mostly each edge comes twice
+        known_.reserve(edges.size() / 2);
+    }
     inside_.clear();
     for (const BoundaryEdge& e : edges) {
         const Inside found = find_once(e);

@@ -35,7 +35,7 @@ struct CutFacets {
         bool flipped = false;
         std::size_t begin = 0;  ///< of its triangles among the corners
     };
-    std::vector<Facet> facets;
+    PoolVector<Facet> facets;
     PoolVector<PointId> corners;  ///< three a triangle
 };
 
