@@ -34,7 +34,7 @@ public:
         const MemoryBlock out = *best;
         *best = blocks_.back();
         blocks_.pop_back();
-        kept_like(out) -= out.size;
+        kept_like(out).bytes -= out.size;
         return out;
     }
 
@@ -46,29 +46,32 @@ public:
             largest_ = block.size;
             return false;
         }
-        std::size_t& kept = kept_like(block);
-        if (kept + block.size >
-            (is_small(block) ? BlockPool::kept_small_bytes : BlockPool::kept_bytes))
-            return false;
+        Kept& kept = kept_like(block);
+        if (kept.bytes + block.size > kept.most) return false;
         try {
             blocks_.push_back(block);
         } catch (const std::bad_alloc&) {
             return false;
         }
-        kept += block.size;
+        kept.bytes += block.size;
         return true;
     }
 
 private:
-    static bool is_small(const MemoryBlock& block) { return block.size < BlockPool::small_block; }
-    std::size_t& kept_like(const MemoryBlock& block) {
-        return is_small(block) ? small_bytes_ : bytes_;
+    struct Kept {
+        std::size_t most = 0;
+        std::size_t bytes = 0;
+    };
+    Kept& kept_like(const MemoryBlock& block) {
+        if (block.size < BlockPool::small_block) return small_;
+        return block.size < BlockPool::large_block ? medium_ : large_;
     }
 
     std::mutex mutex_;
     std::vector<MemoryBlock> blocks_;
-    std::size_t bytes_ = 0;
-    std::size_t small_bytes_ = 0;
+    Kept small_{BlockPool::kept_small_bytes};
+    Kept medium_{BlockPool::kept_medium_bytes};
+    Kept large_{BlockPool::kept_bytes};
     std::size_t largest_ = 0;  // that was given back
 };
 

@@ -18,15 +18,18 @@ struct MemoryBlock {
 };
 
 /// Blocks that arenas gave back, for those of the next evaluation: fresh memory costs a fault a
-/// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes`, no block that
-/// is larger than all before, and allows the system to take them when it needs memory. Of small
-/// blocks it keeps no more than a small result needs. Safe to use from many threads.
+/// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes` of large
+/// blocks, none that is larger than all before, and allows the system to take them when it needs
+/// memory. Of small and medium blocks it keeps no more than a small and a medium result need. Safe
+/// to use from many threads.
 class BlockPool {
 public:
     static constexpr std::size_t kept_bytes = std::size_t{1} << 28;
     /// Arenas take no smaller ones.
     static constexpr std::size_t small_block = std::size_t{1} << 18;
-    static constexpr std::size_t kept_small_bytes = std::size_t{1} << 19;
+    static constexpr std::size_t kept_small_bytes = std::size_t{1} << 20;
+    static constexpr std::size_t large_block = std::size_t{1} << 21;
+    static constexpr std::size_t kept_medium_bytes = std::size_t{1} << 24;
 
     /// A block of at least that size. \throw std::bad_alloc
     [[nodiscard]] static MemoryBlock take(std::size_t bytes);

@@ -53,7 +53,7 @@ public:
         planes_.assign(by_number_ ? facet_count() : parts_.facets.size(), -1);
         if (by_number_) corner_ids_.resize(marks_.size());
         // Of the loops of a facet one edge for each segment, and about as many along its own edges.
-        edges_.reserve(edges_.size() + 3 * crossings_.pairs.size() + 2 * crossings_.shown.size());
+        edges_.reserve(edges_.size() + 4 * crossings_.pairs.size() + 3 * crossings_.shown.size());
         const ParallelParts parts(crossings_.shown.size(), threads, least_facets);
         if (parts.count() == 1) {
             FacetTracing(crossings_, operand_of_, marks_)
