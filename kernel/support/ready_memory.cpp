@@ -23,15 +23,25 @@ constexpr std::size_t most_at_once = std::size_t{1} << 25;
 // Since Linux 5.14; the headers may be older. Systems without it refuse.
 constexpr int populate_write = 23;
 
+constexpr std::uintptr_t page = 4096;
+
+// Of memory that the heap had before, which is ready as a whole or at its beginning.
+bool is_ready(std::uintptr_t begin, std::uintptr_t end) {
+    const auto has_page = [](std::uintptr_t at) {
+        unsigned char state = 0;
+        return mincore(reinterpret_cast<void*>(at), page, &state) == 0 && (state & 1) != 0;
+    };
+    return has_page(end - page) && has_page(begin + (end - begin) / (2 * page) * page);
+}
+
 }  // namespace
 
 void make_ready(void* memory, std::size_t bytes) noexcept {
     if (bytes < least_to_make_ready) return;
     // Whole small pages, which is what the system takes.
-    constexpr std::uintptr_t page = 4096;
     const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) & ~(page - 1);
     const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) & ~(page - 1);
-    if (begin >= end) return;
+    if (begin >= end || is_ready(begin, end)) return;
     auto* const first = reinterpret_cast<void*>(begin);
     if (bytes >= least_for_large_pages) (void)madvise(first, end - begin, MADV_HUGEPAGE);
     if (bytes <= most_at_once) (void)madvise(first, end - begin, populate_write);
