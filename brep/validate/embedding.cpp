@@ -42,17 +42,23 @@ bool is_valid(const LatticeMesh& mesh) {
     }
 }
 
-std::optional<bool> is_embedded_manifold(const LatticeMesh& mesh) {
-    const auto manifold = detail::ManifoldMesh::of(mesh.points, mesh.triangles);
-    if (!manifold) return std::nullopt;
-    if (manifold->is_starlike()) {
+// By a glance at each triangle.
+bool is_simple(const detail::ManifoldMesh& mesh) {
+    if (mesh.is_starlike()) {
         ++detail::embedding_counters().starlike;
         return true;
     }
-    if (manifold->is_height_field()) {
+    if (mesh.is_height_field()) {
         ++detail::embedding_counters().height_fields;
         return true;
     }
+    return false;
+}
+
+std::optional<bool> is_embedded_manifold(const LatticeMesh& mesh) {
+    const auto manifold = detail::ManifoldMesh::of(mesh.points, mesh.triangles);
+    if (!manifold) return std::nullopt;
+    if (is_simple(*manifold)) return true;
     const std::optional<bool> nested = manifold->are_shells_nested();
     if (!nested || !*nested) return nested;
     return manifold->has_no_contact();
@@ -62,6 +68,14 @@ std::optional<bool> is_embedded_manifold(const LatticeMesh& mesh) {
 
 bool is_embedded(const LatticeMesh& mesh) {
     const std::optional<bool> answer = is_embedded_manifold(mesh);
+    return answer ? *answer : is_valid(mesh);
+}
+
+bool are_embedded(const LatticeMesh& mesh, std::span<const std::uint32_t> triangles) {
+    const auto manifold = detail::ManifoldMesh::of(mesh.points, mesh.triangles);
+    if (manifold && is_simple(*manifold)) return true;
+    const std::optional<bool> answer =
+        manifold ? manifold->has_no_contact(triangles) : std::nullopt;
     return answer ? *answer : is_valid(mesh);
 }
 

@@ -3,6 +3,9 @@
 // Embedding test of a boundary: no self-intersection, and nested shells.
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include <trisect/brep/lattice_mesh.h>
 
 namespace trisect {
@@ -15,5 +18,9 @@ namespace trisect {
 /// than some hundred pairs a triangle. Cost: O(n log n) for ordinary meshes, about two
 /// microseconds a triangle. \throw CancelledError, LimitError by the StopScope
 [[nodiscard]] bool is_embedded(const LatticeMesh& mesh);
+
+/// The same for a mesh that is known to bound a solid, but for places where it touches itself: no
+/// one of these triangles meets any other beyond the corners and edges that they share.
+[[nodiscard]] bool are_embedded(const LatticeMesh& mesh, std::span<const std::uint32_t> triangles);
 
 }  // namespace trisect

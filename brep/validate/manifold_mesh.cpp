@@ -71,7 +71,15 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
     return true;
 }
 
-std::optional<bool> ManifoldMesh::has_no_contact() const {
+std::optional<bool> ManifoldMesh::has_no_contact() const { return has_no_contact_of({}); }
+
+std::optional<bool> ManifoldMesh::has_no_contact(std::span<const std::uint32_t> triangles) const {
+    std::vector<std::uint8_t> marks(triangles_.size(), 0);
+    for (const std::uint32_t t : triangles) marks[t] = 1;
+    return has_no_contact_of(marks);
+}
+
+std::optional<bool> ManifoldMesh::has_no_contact_of(std::span<const std::uint8_t> marks) const {
     if (is_convex()) {
         ++embedding_counters().convex;
         return true;
@@ -82,12 +90,14 @@ std::optional<bool> ManifoldMesh::has_no_contact() const {
     end_step();
     std::vector<Triangle> near;
     std::vector<std::uint32_t> sheet_of;
+    std::vector<std::uint8_t> is_wanted;
     const auto turned = TurnedPoints::of(points_, triangles_);
     const auto seen = turned ? std::span<const LatticePoint>(turned->points) : points_;
     const double error = turned ? turned->error : 0;
     for (const std::uint32_t t : triangles_near_others(seen, triangles_, *sheets, error)) {
         near.push_back(triangles_[t]);
         sheet_of.push_back((*sheets)[t]);
+        is_wanted.push_back(marks.empty() ? 1 : marks[t]);
     }
     const std::vector<std::uint8_t> is_graph = find_graph_corners(points_, triangles_, near);
     const auto relation_of = [&](const Triangle& a, const Triangle& b) {
@@ -109,6 +119,7 @@ std::optional<bool> ManifoldMesh::has_no_contact() const {
     std::uint64_t pairs = 0;
     const std::uint64_t limit = pair_limit_of(triangles_.size());
     tree.for_each_pair([&](std::uint32_t a, std::uint32_t b) {
+        if ((is_wanted[a] | is_wanted[b]) == 0) return true;
         check_stop();
         found = ++pairs > limit ? Found::Contact : relation_of(near[a], near[b]);
         return found == Found::Nothing;

@@ -34,6 +34,9 @@ public:
     /// well when more pairs than some hundred a triangle would have to be compared. O(n log n) for
     /// ordinary meshes. \throw CancelledError, LimitError by the StopScope
     [[nodiscard]] std::optional<bool> has_no_contact() const;
+    /// The same for pairs of which one is among these triangles.
+    [[nodiscard]] std::optional<bool> has_no_contact(
+        std::span<const std::uint32_t> triangles) const;
 
     /// Whether each direction from a point within plainly meets one triangle: then it bounds a
     /// solid, seen from outside, and no two triangles meet beyond the corners and edges that they
@@ -58,6 +61,8 @@ private:
         : points_(points), triangles_(triangles), twins_(std::move(twins)) {}
 
     [[nodiscard]] bool has_equal_corners(const Triangle& a, const Triangle& b) const;
+    // By triangle: one of a pair is marked. All pairs where there are no marks.
+    [[nodiscard]] std::optional<bool> has_no_contact_of(std::span<const std::uint8_t> marks) const;
 
     std::span<const LatticePoint> points_;
     std::span<const Triangle> triangles_;

@@ -305,7 +305,7 @@ private:
     // inwards, of all of them.
     [[nodiscard]] std::optional<FoundPairs> find_by_corners(EvaluateStats& stats) {
         const LatticeMesh& mesh = *two_.meshes[1];
-        if (!is_embedded(mesh)) return std::nullopt;
+        if (!are_embedded(mesh, near_[1])) return std::nullopt;
         start(false);
         const auto& operands = operands_.operands;
         const bool is_difference = operands[0].inside_above != operands[1].inside_above;

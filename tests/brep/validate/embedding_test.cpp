@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -41,6 +42,24 @@ TEST(Embedding, WhatMeetsItself) {
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 0, 0}, {2, 1, 1})))) << "flush";
     EXPECT_FALSE(embedded(together(cuboid(), cuboid({1, 0.25, 0.25}, {2, 0.5, 0.5}))))
         << "on a face";
+}
+
+// Three cubes in a row: the last two touch in a face, far from the first one.
+TEST(Embedding, OfSomeTrianglesOnly) {
+    const PolygonMesh cubes = together(together(cuboid(), cuboid({2, 0, 0}, {3, 1, 1})),
+                                       cuboid({3, 0.25, 0.25}, {4, 0.75, 0.75}));
+    const trisect::LatticeMesh mesh = trisect::import_mesh(cubes).mesh;
+    const auto triangles = [](std::uint32_t first, std::uint32_t end) {
+        std::vector<std::uint32_t> out;
+        for (std::uint32_t t = first; t < end; ++t) out.push_back(t);
+        return out;
+    };
+    ASSERT_EQ(mesh.triangles.size(), 36U);
+    EXPECT_FALSE(is_embedded(mesh));
+    EXPECT_TRUE(trisect::are_embedded(mesh, {}));
+    EXPECT_TRUE(trisect::are_embedded(mesh, triangles(0, 12)));
+    EXPECT_FALSE(trisect::are_embedded(mesh, triangles(12, 24)));
+    EXPECT_FALSE(trisect::are_embedded(mesh, triangles(0, 36)));
 }
 
 TEST(Embedding, CountsWhatDecided) {
