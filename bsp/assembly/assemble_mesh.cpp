@@ -406,18 +406,19 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
                      std::uint32_t threads, const MeshDetails& details) {
     BoundaryParts parts;
     gather_parts(solid, parts, by_planes, threads);
+    if (threads != 1) parts.bench.share();
     BoundaryEdges edges = std::move(parts.edges);
     const auto join = [&] {
         if (parts.are_joined) return sort_by_facet(parts, edges);
         join_facets(parts, edges);
-        remove_straight_vertices(parts, true, {}, edges);
+        remove_straight_vertices(parts, true, {}, edges, threads);
         // Facets that nothing changed are left alone, so that it does not show which of them the
         // tree has looked at.
         mark_unchanged_facets(parts, edges);
-        parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
+        parts.stats.joined_facets = join_coplanar_facets(parts, false, edges, threads);
         join_planes_across_axes(parts, edges);
         if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
-            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
+            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges, threads);
     };
     // What was cut and what passes through have nothing to do with each other yet.
     CornerTables tables;
@@ -430,7 +431,6 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         find_corners();
     }
     if (stats != nullptr) *stats = parts.stats;
-    if (threads != 1) parts.bench.share();
     MeshWriter writer(solid, parts, std::move(tables), threads);
     PolygonMesh mesh = writer.write(edges);
     if (details.names != nullptr) *details.names = writer.names();

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <iterator>
 #include <numeric>
@@ -28,6 +29,7 @@
 #include <trisect/kernel/number/triangle_normal.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
@@ -223,61 +225,116 @@ void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> e
 
 namespace {
 
+// Fewer edges are not worth a part.
+constexpr std::size_t least_edges = 16384;
+
+// Calls work(begin, end) for parts of the edges; those of a facet stay together.
+template <class Work>
+void for_each_part(const BoundaryEdges& edges, std::uint32_t threads, const Work& work) {
+    const auto at_facet = [&](std::size_t i) {
+        while (i != 0 && i < edges.size() && edges[i].facet == edges[i - 1].facet) ++i;
+        return i;
+    };
+    ParallelParts(edges.size(), threads, least_edges)
+        .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            work(part, at_facet(begin), at_facet(end));
+        });
+}
+
 // Finds for every edge the one that runs the other way between the same ends, bounds the region on
 // its other side, and is joined with it.
 class CoplanarPairs {
 public:
     CoplanarPairs(const BoundaryParts& parts, bool within_faces, const BoundaryEdges& edges)
-        : parts_(parts),
-          within_faces_(within_faces),
-          edges_(edges),
-          table_(std::bit_ceil(2 * edges.size() + 1), none),
-          gone_(edges.size(), false) {}
+        : parts_(parts), within_faces_(within_faces), edges_(edges), gone_(edges.size(), 0) {}
 
     /// Calls join(f, g) for the facets of every pair.
     template <class Join>
-    void run(Join&& join) {
-        make_normals();
-        constexpr std::uint32_t ahead = 8;
-        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-            // Both lie anywhere in memory.
-            if (e + 2 * ahead < edges_.size())
-                __builtin_prefetch(&table_[first_slot(ends_of(edges_[e + 2 * ahead]))]);
-            if (e + ahead < edges_.size()) {
-                const std::uint32_t at = table_[first_slot(ends_of(edges_[e + ahead]))];
-                if (at != none) __builtin_prefetch(&edges_[at]);
-            }
-            const std::uint64_t ends = ends_of(edges_[e]);
-            std::size_t slot = first_slot(ends);
-            std::size_t others = 0;  // edges with the same ends that were met on the way
-            for (; table_[slot] != none; slot = (slot + 1) & (table_.size() - 1)) {
-                const std::uint32_t at = table_[slot];
-                if (ends_of(edges_[at]) != ends) continue;
-                if (!gone_[at] && are_pair(edges_[at], edges_[e])) break;
-                others += gone_[at] ? 2 : 1;
-            }
-            if (table_[slot] == none) {
-                table_[slot] = e;
-            } else {
-                gone_[e] = gone_[table_[slot]] = true;
-                pairs_.push_back({table_[slot], e});
-                ++others;
-            }
-            // The last edge of two pairs meets another one, whichever comes first in the table.
-            if (others >= 2) crowded_.push_back(ends);
-        }
+    void run(std::uint32_t threads, Join&& join) {
+        make_normals(threads);
+        find_pairs(threads);
         find_whole_facets();
         keep_crossings();
         for (const auto& [e, f] : pairs_)
-            if (gone_[e]) join(edges_[e].facet, edges_[f].facet);
+            if (gone_[e] != 0) join(edges_[e].facet, edges_[f].facet);
     }
     [[nodiscard]] bool any_gone() const { return !pairs_.empty(); }
-    [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge]; }
+    [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge] != 0; }
 
 private:
-    [[nodiscard]] std::size_t first_slot(std::uint64_t ends) const {
-        return mix64(ends) & (table_.size() - 1);
+    using PairOfEdges = std::pair<std::uint32_t, std::uint32_t>;
+    // Edges of some ends, and what was found about them.
+    struct Table {
+        PoolVector<std::uint32_t> edges;  // open addressing by their ends
+        PoolVector<PairOfEdges> pairs;
+        PoolVector<std::uint64_t> crowded;
+    };
+
+    // Each thread has the edges with the ends of one table.
+    void find_pairs(std::uint32_t threads) {
+        const std::size_t count = parts_by_thread(edges_.size(), threads, least_edges).count();
+        std::vector<Table> tables(count);
+        ParallelParts(count, count == 1 ? 1 : threads, 1)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t t = begin; t < end; ++t) find_pairs(tables, t);
+            });
+        if (count == 1) {
+            pairs_ = std::move(tables[0].pairs);
+            crowded_ = std::move(tables[0].crowded);
+            return;
+        }
+        for (const Table& t : tables) {
+            pairs_.insert(pairs_.end(), t.pairs.begin(), t.pairs.end());
+            crowded_.insert(crowded_.end(), t.crowded.begin(), t.crowded.end());
+        }
+        std::ranges::sort(pairs_, {}, &PairOfEdges::second);
     }
+
+    void find_pairs(std::vector<Table>& tables, std::size_t number) {
+        Table& own = tables[number];
+        const std::size_t count = tables.size();
+        const auto is_own = [&](std::uint64_t hash) { return (hash >> 40) % count == number; };
+        const auto own_count = count == 1
+                                   ? static_cast<std::ptrdiff_t>(edges_.size())
+                                   : std::ranges::count_if(edges_, [&](const BoundaryEdge& e) {
+                                         return is_own(mix64(ends_of(e)));
+                                     });
+        own.edges.assign(std::bit_ceil(2 * static_cast<std::size_t>(own_count) + 1), none);
+        const std::size_t mask = own.edges.size() - 1;
+        constexpr std::uint32_t ahead = 8;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            // Both lie anywhere in memory.
+            if (count == 1 && e + 2 * ahead < edges_.size())
+                __builtin_prefetch(&own.edges[mix64(ends_of(edges_[e + 2 * ahead])) & mask]);
+            if (count == 1 && e + ahead < edges_.size()) {
+                const std::uint32_t at = own.edges[mix64(ends_of(edges_[e + ahead])) & mask];
+                if (at != none) __builtin_prefetch(&edges_[at]);
+            }
+            const std::uint64_t hash = mix64(ends_of(edges_[e]));
+            if (count == 1 || is_own(hash)) enter(own, e, hash & mask);
+        }
+    }
+
+    void enter(Table& own, std::uint32_t e, std::size_t slot) {
+        const std::uint64_t ends = ends_of(edges_[e]);
+        std::size_t others = 0;  // edges with the same ends that were met on the way
+        for (; own.edges[slot] != none; slot = (slot + 1) & (own.edges.size() - 1)) {
+            const std::uint32_t at = own.edges[slot];
+            if (ends_of(edges_[at]) != ends) continue;
+            if (gone_[at] == 0 && are_pair(edges_[at], edges_[e])) break;
+            others += gone_[at] != 0 ? 2 : 1;
+        }
+        if (own.edges[slot] == none) {
+            own.edges[slot] = e;
+        } else {
+            gone_[e] = gone_[own.edges[slot]] = 1;
+            own.pairs.push_back({own.edges[slot], e});
+            ++others;
+        }
+        // The last edge of two pairs meets another one, whichever comes first in the table.
+        if (others >= 2) own.crowded.push_back(ends);
+    }
+
     [[nodiscard]] bool are_pair(const BoundaryEdge& e, const BoundaryEdge& f) const {
         return e.from == f.to && e.to == f.from && belong_together(e, f);
     }
@@ -299,17 +356,20 @@ private:
     [[nodiscard]] const TriangleNormal& normal_of(std::int32_t facet) const {
         return normals_[as_index(facet)];
     }
-    void make_normals() {
+    void make_normals(std::uint32_t threads) {
         normals_.resize(parts_.facets.size());
-        std::int32_t last = -1;
-        for (const BoundaryEdge& e : edges_) {
-            if (std::exchange(last, e.facet) == e.facet) continue;
-            const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
-            if (!f.source->is_half_space())
-                normals_[as_index(e.facet)] = {f.source->corner(f.facet, 0).doubles(),
-                                               f.source->corner(f.facet, 1).doubles(),
-                                               f.source->corner(f.facet, 2).doubles()};
-        }
+        for_each_part(edges_, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+            std::int32_t last = -1;
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::int32_t facet = edges_[i].facet;
+                if (std::exchange(last, facet) == facet) continue;
+                const BoundaryFacet& f = parts_.facets[as_index(facet)];
+                if (!f.source->is_half_space())
+                    normals_[as_index(facet)] = {f.source->corner(f.facet, 0).doubles(),
+                                                 f.source->corner(f.facet, 1).doubles(),
+                                                 f.source->corner(f.facet, 2).doubles()};
+            }
+        });
     }
 
     // Facets that pass through as they are have no edges here.
@@ -348,7 +408,7 @@ private:
                 group.push_back(w->edge);
             const bool cross = cross_straight(group);
             for (; i < j; ++i)
-                if (cross) gone_[here[i].second] = false;
+                if (cross) gone_[here[i].second] = 0;
         }
     }
 
@@ -357,8 +417,7 @@ private:
     bool within_faces_;
     const BoundaryEdges& edges_;
     PoolVector<TriangleNormal> normals_;  // by facet
-    PoolVector<std::uint32_t> table_;     // of edges by their ends, open addressing
-    std::vector<bool> gone_;
+    PoolVector<std::uint8_t> gone_;
     PoolVector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     PoolVector<std::uint64_t> crowded_;  // ends of more than two edges
     PoolVector<WholeFacetEdge> whole_;
@@ -367,7 +426,7 @@ private:
 }  // namespace
 
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
-                                 BoundaryEdges& edges) {
+                                 BoundaryEdges& edges, std::uint32_t threads) {
     check_stop(edges.size());
     PoolVector<std::int32_t> cluster(parts.facets.size());
     std::iota(cluster.begin(), cluster.end(), 0);
@@ -378,7 +437,7 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
     };
     std::size_t joined = 0;
     CoplanarPairs pairs(parts, within_faces, edges);
-    pairs.run([&](std::int32_t f, std::int32_t g) {
+    pairs.run(threads, [&](std::int32_t f, std::int32_t g) {
         const std::int32_t x = root(f);
         const std::int32_t y = root(g);
         if (x != y) ++joined;
@@ -430,74 +489,73 @@ namespace {
 // where no region's name says so turns are computed.
 class StraightRuns {
 public:
-    StraightRuns(const BoundaryParts& parts, bool keep_corners, std::span<const PointId> keep,
-                 const BoundaryEdges& edges)
-        : parts_(parts),
-          bench_(parts.bench),
-          keep_corners_(keep_corners),
-          edges_(edges),
-          keep_(bench_.point_count(), 0) {
-        for (const PointId p : keep) keep_[as_index(p)] = 1;
-    }
-
-    void look_at(std::size_t first, std::size_t end) {
-        const auto region = std::span(edges_).subspan(first, end - first);
-        if (!chains_.are_simple(region)) return look_at_any(first, end);
-        const PlaneId support = parts_.facets[as_index(region[0].facet)].support;
-        for_each_turn(region, [&](std::size_t in, std::size_t out) {
-            const PointId p = region[out].from;
-            if (keep_[as_index(p)] != 0) return;
-            if ((keep_corners_ && bench_.is_corner(p)) ||
-                name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
-                keep_[as_index(p)] = 1;
-            } else {
-                add_passage(first + in, first + out);
-            }
-        });
-    }
-
-    /// Whether there are any.
-    [[nodiscard]] bool find() {
-        bool found = false;
-        for (const Passage& d : uncertain_) {
-            char& keep = keep_[as_index(edges_[d.out].from)];
-            if (keep != 0) continue;
-            if (!runs_straight(edges_[d.in], edges_[d.out])) {
-                keep = 1;
-                continue;
-            }
-            if (next_.empty()) next_.assign(edges_.size(), none);
-            next_[d.in] = d.out;
-        }
-        for (const Passage& d : uncertain_)
-            found = found || keep_[as_index(edges_[d.out].from)] == 0;
-        return found;
-    }
-
-    // Loops that were in order stay so.
-    [[nodiscard]] BoundaryEdges joined() const {
-        BoundaryEdges out;
-        out.reserve(edges_.size());
-        for (std::size_t i = 0; i < edges_.size(); ++i) {
-            if (keep_[as_index(edges_[i].from)] == 0) continue;
-            BoundaryEdge run = edges_[i];
-            for (std::size_t at = i; keep_[as_index(run.to)] == 0;) {
-                at = next_[at];
-                run.to = edges_[at].to;
-            }
-            out.push_back(run);
-        }
-        return out;
-    }
-
-private:
-    static constexpr std::size_t none = static_cast<std::size_t>(-1);
-    using Ends = std::vector<std::pair<PointId, std::size_t>>;
     // Edges that follow each other.
     struct Passage {
         std::size_t in = 0;
         std::size_t out = 0;
     };
+
+    StraightRuns(const BoundaryParts& parts, bool keep_corners, const BoundaryEdges& edges,
+                 std::span<char> keep)
+        : parts_(parts),
+          bench_(parts.bench),
+          keep_corners_(keep_corners),
+          edges_(edges),
+          keep_(keep) {}
+
+    /// The turns of these edges, which are all those of some facets.
+    void look_at(std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end;) {
+            std::size_t j = i;
+            while (j < end && edges_[j].facet == edges_[i].facet) ++j;
+            look_at_facet(i, j);
+            i = j;
+        }
+    }
+
+    /// Computes turns of which no name says enough. Of those that run straight on the next edge is
+    /// put down, by the edge before it.
+    void compute(std::span<std::size_t> next) {
+        for (const Passage& d : uncertain_) {
+            const PointId p = edges_[d.out].from;
+            if (is_kept(p)) continue;
+            if (runs_straight(edges_[d.in], edges_[d.out])) {
+                next[d.in] = d.out;
+            } else {
+                keep(p);
+            }
+        }
+    }
+
+    [[nodiscard]] std::span<const Passage> uncertain() const { return uncertain_; }
+
+private:
+    using Ends = std::vector<std::pair<PointId, std::size_t>>;
+
+    // Other threads may keep it at the same time. What is found here does not depend on that, only
+    // how much is looked at.
+    [[nodiscard]] bool is_kept(PointId p) const {
+        return std::atomic_ref(keep_[as_index(p)]).load(std::memory_order_relaxed) != 0;
+    }
+    void keep(PointId p) {
+        std::atomic_ref(keep_[as_index(p)]).store(1, std::memory_order_relaxed);
+    }
+
+    void look_at_facet(std::size_t first, std::size_t end) {
+        const auto region = std::span(edges_).subspan(first, end - first);
+        if (!chains_.are_simple(region)) return look_at_any(first, end);
+        const PlaneId support = parts_.facets[as_index(region[0].facet)].support;
+        for_each_turn(region, [&](std::size_t in, std::size_t out) {
+            const PointId p = region[out].from;
+            if (is_kept(p)) return;
+            if ((keep_corners_ && bench_.is_corner(p)) ||
+                name_tells_turn(bench_, p, support, region[in].line, region[out].line)) {
+                keep(p);
+            } else {
+                add_passage(first + in, first + out);
+            }
+        });
+    }
 
     void look_at_any(std::size_t first, std::size_t end) {
         by_from_.clear();
@@ -515,9 +573,9 @@ private:
             TRISECT_EXPECTS(p == q, "boundary of a face is not closed");
             const bool single = (k == 0 || by_from_[k - 1].first != p) &&
                                 (k + 1 == n || by_from_[k + 1].first != p);
-            if (keep_[as_index(p)] != 0) continue;
+            if (is_kept(p)) continue;
             if (keep_corners_ && bench_.is_corner(p)) {
-                keep_[as_index(p)] = 1;
+                keep(p);
             } else if (single) {
                 add_passage(in, out);
             } else if (k + 1 == n || by_from_[k + 1].first != p) {
@@ -528,7 +586,7 @@ private:
 
     void add_passage(std::size_t in, std::size_t out) {
         if (edges_[in].from == edges_[out].to) {
-            keep_[as_index(edges_[out].from)] = 1;  // the tip of a slit
+            keep(edges_[out].from);  // the tip of a slit
         } else {
             uncertain_.push_back({in, out});
         }
@@ -544,7 +602,7 @@ private:
         if (edges_[in[0]].from == edges_[out[0]].to) std::swap(in[0], in[1]);
         if (!two || edges_[in[0]].from != edges_[out[1]].to ||
             edges_[in[1]].from != edges_[out[0]].to) {
-            keep_[as_index(p)] = 1;
+            keep(p);
             return;
         }
         for (std::size_t i = 0; i < 2; ++i) add_passage(in[i], out[i]);
@@ -559,26 +617,56 @@ private:
     const Workbench& bench_;
     bool keep_corners_;
     const BoundaryEdges& edges_;
-    PoolVector<char> keep_;  // by point
+    std::span<char> keep_;  // by point
     PoolVector<Passage> uncertain_;
-    PoolVector<std::size_t> next_;  // of edges, where they run straight on
     EdgeChains chains_;
     Ends by_from_;
     Ends by_to_;
 };
 
+// Leaves out points that are not kept. Loops that were in order stay so.
+BoundaryEdges without_straight(const BoundaryEdges& edges, std::span<const char> keep,
+                               std::span<const std::size_t> next) {
+    BoundaryEdges out;
+    out.reserve(edges.size());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (keep[as_index(edges[i].from)] == 0) continue;
+        BoundaryEdge run = edges[i];
+        for (std::size_t at = i; keep[as_index(run.to)] == 0;) {
+            at = next[at];
+            run.to = edges[at].to;
+        }
+        out.push_back(run);
+    }
+    return out;
+}
+
 }  // namespace
 
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
-                              std::span<const PointId> keep, BoundaryEdges& edges) {
-    StraightRuns runs(parts, keep_corners, keep, edges);
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t j = i;
-        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
-        runs.look_at(i, j);
-        i = j;
-    }
-    if (runs.find()) edges = runs.joined();
+                              std::span<const PointId> keep, BoundaryEdges& edges,
+                              std::uint32_t threads) {
+    PoolVector<char> kept(parts.bench.point_count(), 0);
+    for (const PointId p : keep) kept[as_index(p)] = 1;
+    const std::size_t count = ParallelParts(edges.size(), threads, least_edges).count();
+    std::vector<StraightRuns> runs(count, StraightRuns(parts, keep_corners, edges, kept));
+    for_each_part(edges, threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        runs[part].look_at(begin, end);
+    });
+    const auto has_none = [](const StraightRuns& r) { return r.uncertain().empty(); };
+    if (std::ranges::all_of(runs, has_none)) return;
+    PoolVector<std::size_t> next(edges.size());
+    ParallelParts(count, count == 1 ? 1 : threads, 1)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) runs[i].compute(next);
+        });
+    const auto is_left_out = [&](const StraightRuns::Passage& d) {
+        return kept[as_index(edges[d.out].from)] == 0;
+    };
+    if (std::ranges::any_of(runs, [&](const StraightRuns& r) {
+            return std::ranges::any_of(r.uncertain(), is_left_out);
+        }))
+        edges = without_straight(edges, kept, next);
 }
 
 }  // namespace trisect::detail

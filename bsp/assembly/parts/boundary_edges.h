@@ -38,8 +38,9 @@ void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> e
 /// across there. With `within_faces` only facets of the same
 /// face of the same operand are, and facets marked as unchanged never. The edges come out sorted by
 /// facet. Returns how many facets became part of another one's face.
+/// `threads` as in ParallelParts; if not 1 the bench of the parts has to be shared.
 std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
-                                 BoundaryEdges& edges);
+                                 BoundaryEdges& edges, std::uint32_t threads = 1);
 
 /// Renumbers `facet` of the edges in axis-perpendicular planes to the first facet of their plane
 /// and facing, so that a plane is one region whichever way its outline was found (axis_faces.h).
@@ -48,8 +49,9 @@ void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
 /// corners of the operands stay, and in any case the points of `keep` do. \pre edges sorted by
-/// facet.
+/// facet. `threads` as in join_coplanar_facets.
 void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
-                              std::span<const PointId> keep, BoundaryEdges& edges);
+                              std::span<const PointId> keep, BoundaryEdges& edges,
+                              std::uint32_t threads = 1);
 
 }  // namespace trisect::detail
