@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Buckets: items by small numbers.
+// Buckets: items by numbers, few of which have some.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
 namespace trisect::detail {
 
 /// Items by a number below a limit, those of one in the order in which they were added; keeps its
-/// memory.
+/// memory. What is done takes time by items, however many numbers there are.
 template <class Item>
 class Buckets {
 public:
+    struct Bucket {
+        std::uint32_t key = 0;
+        std::uint32_t first = 0;  ///< of its items
+        std::uint32_t count = 0;
+    };
     void clear() {
+        for (const Bucket& b : buckets_) place_[b.key] = 0;
+        buckets_.clear();
         keys_.clear();
         added_.clear();
     }
@@ -26,22 +32,41 @@ public:
     }
     /// To be called when all were added.
     void sort(std::size_t limit) {
-        // A number's end moves on to where it ends, which is where the next one begins.
-        first_.assign(limit + 2, 0);
-        for (const std::uint32_t k : keys_) ++first_[k + 2];
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        if (place_.size() < limit) place_.resize(limit);
+        for (const std::uint32_t k : keys_) {
+            if (place_[k] == 0) {
+                buckets_.push_back({k, 0, 0});
+                place_[k] = static_cast<std::uint32_t>(buckets_.size());
+            }
+            ++buckets_[place_[k] - 1].count;
+        }
+        std::uint32_t before = 0;
+        for (Bucket& b : buckets_) {
+            b.first = before;
+            before += b.count;
+            b.count = 0;
+        }
         items_.resize(added_.size());
-        for (std::size_t i = 0; i < keys_.size(); ++i) items_[first_[keys_[i] + 1]++] = added_[i];
+        for (std::size_t i = 0; i < keys_.size(); ++i) {
+            Bucket& b = buckets_[place_[keys_[i]] - 1];
+            items_[b.first + b.count++] = added_[i];
+        }
+    }
+    /// Numbers that have items, in the order in which their first ones were added.
+    [[nodiscard]] std::span<const Bucket> buckets() const { return buckets_; }
+    [[nodiscard]] std::span<Item> of(const Bucket& b) {
+        return std::span(items_).subspan(b.first, b.count);
     }
     [[nodiscard]] std::span<Item> of(std::uint32_t key) {
-        return std::span(items_).subspan(first_[key], first_[key + 1] - first_[key]);
+        return place_[key] == 0 ? std::span<Item>() : of(buckets_[place_[key] - 1]);
     }
-    [[nodiscard]] bool has(std::uint32_t key) const { return first_[key] != first_[key + 1]; }
+    [[nodiscard]] bool has(std::uint32_t key) const { return place_[key] != 0; }
 
 private:
     std::vector<std::uint32_t> keys_;
     std::vector<Item> added_;
-    std::vector<std::uint32_t> first_;
+    std::vector<Bucket> buckets_;
+    std::vector<std::uint32_t> place_;  // among these, from 1 on; 0 where a number has none
     std::vector<Item> items_;
 };
 

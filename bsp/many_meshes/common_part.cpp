@@ -24,8 +24,8 @@
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 #include <trisect/bsp/many_meshes/point_side.h>
 #include <trisect/bsp/many_meshes/spare_outlines.h>
+#include <trisect/bsp/many_meshes/vertex_sides.h>
 #include <trisect/kernel/number/error_bounds.h>
-#include <trisect/kernel/support/disjoint_sets.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -77,6 +77,7 @@ private:
         std::uint32_t vertex = 0;  // of those that were made
         bool opens = false;        // what follows along the edge
         std::uint32_t cutter = 0;
+        std::uint32_t place = 0;  // of the part
         double along = 0;
     };
     // A crossing on a part, with what is open on its left.
@@ -85,7 +86,7 @@ private:
         std::uint32_t to = 0;
         const FacetCrossing* line = nullptr;
     };
-    enum class Side : std::uint8_t { Unknown, Open, Closed };
+    using Side = VertexSides::Side;
 
     void start(const OutlinedSolid& first, const OutlinedSolid& second);
     void find_near(std::size_t solid);
@@ -111,11 +112,9 @@ private:
                                   const OutlinedSolid& solid, std::span<Stop> stops) const;
     [[nodiscard]] int order_of_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
                                      const Stop& a, const Stop& b) const;
-    [[nodiscard]] std::optional<bool> side_of_part(std::size_t solid, DisjointSets& joined,
-                                                   std::uint32_t root);
+    [[nodiscard]] std::optional<bool> side_of_part(std::size_t solid, std::uint32_t root);
+    void list_vertices(std::size_t solid);
     [[nodiscard]] bool mark_ends(std::size_t solid);
-    [[nodiscard]] bool mark(std::size_t solid, std::uint32_t vertex, Side side);
-    void join_vertices(std::size_t solid);
     void mark_beyond(std::size_t solid);
     void keep_parts(std::size_t solid);
     [[nodiscard]] bool is_untouched(std::size_t solid, std::uint32_t place) const;
@@ -128,7 +127,7 @@ private:
     [[nodiscard]] std::uint32_t kept_made(std::uint32_t v);
     // Of a vertex of a facet that is near.
     [[nodiscard]] bool is_open(std::size_t solid, std::uint32_t v) const {
-        return sides_[solid][v] == Side::Open;
+        return sides_[solid].of(v) == Side::Open;
     }
     // What is far out of the other solid.
     [[nodiscard]] bool is_far_open(std::size_t solid) const { return open_far_out_[1 - solid]; }
@@ -143,18 +142,15 @@ private:
     std::unique_ptr<OutlinedSolid::Lines> lines_;
     std::vector<OutlineVertex> made_;
     FlatMap made_by_name_;
-    std::array<Buckets<Stop>, 2> stops_;                                           // by edge
-    std::array<std::vector<std::pair<std::uint32_t, std::uint32_t>>, 2> pierced_;  // edge and place
-    std::vector<std::uint8_t> is_marked_;                                          // of these edges
+    std::array<Buckets<Stop>, 2> stops_;              // by edge
     std::array<std::vector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
     std::array<Buckets<Cut>, 2> cuts_;                // by place
-    std::array<std::vector<Side>, 2> sides_;          // by vertex: of the other solid
+    std::array<VertexSides, 2> sides_;                // of vertices of facets that are near
     std::array<std::vector<std::uint32_t>, 2> kept_;  // by vertex: its number in the result
     std::vector<std::uint32_t> kept_made_;
     // Added to a vertex's number, where all keep theirs.
     bool keeps_numbers_ = false;
     std::array<std::uint32_t, 2> added_{};
-    DisjointSets joined_;
     OutlinedSolid out_;
     SpareOutlines spare_;
 };
@@ -169,7 +165,6 @@ void CommonPart::Steps::start(const OutlinedSolid& first, const OutlinedSolid& s
     for (std::size_t i = 0; i < 2; ++i) {
         stops_[i].clear();
         cuts_[i].clear();
-        pierced_[i].clear();
         find_near(i);
     }
     out_ = {};
@@ -207,8 +202,7 @@ void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
         const std::size_t owner = end.of_second ? 1 : 0;
         // Walking on along the edge one comes to the left of what ends there.
         const std::uint32_t cutter = solids_[1 - owner]->facets[places[1 - owner]].number;
-        stops_[owner].add(end.edge, {ends[k], (k == 1) == along[owner], cutter, 0});
-        pierced_[owner].emplace_back(end.edge, places[owner]);
+        stops_[owner].add(end.edge, {ends[k], (k == 1) == along[owner], cutter, places[owner]});
     }
     for (std::size_t i = 0; i < 2; ++i)
         cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], &line});
@@ -280,25 +274,33 @@ int CommonPart::Steps::order_of_stops(const OutlinedSolid::Edge& edge, std::uint
     return (along ? 1 : -1) * exact_.order_on_line(line, a.cutter, b.cutter);
 }
 
-bool CommonPart::Steps::mark(std::size_t solid, std::uint32_t vertex, Side side) {
-    Side& known = sides_[solid][vertex];
-    if (known != Side::Unknown) return known == side;
-    known = side;
-    return true;
+// Of facets that are near. Each is where an edge begins.
+void CommonPart::Steps::list_vertices(std::size_t solid) {
+    const OutlinedSolid& s = *solids_[solid];
+    VertexSides& sides = sides_[solid];
+    const Buckets<Stop>& stops = stops_[solid];
+    sides.start(s.vertices.size());
+    for (const std::uint32_t f : near_[solid]) {
+        const OutlinedSolid::Facet& facet = s.facets[f];
+        const std::uint32_t end = facet.first + facet.count;
+        for (std::uint32_t e = facet.first; e < end; ++e) sides.list(s.edges[e].from);
+        for (std::uint32_t e = facet.first; e < end; ++e)
+            if (!stops.has(e)) sides.join(s.edges[e].from, s.edges[e].to);
+    }
 }
 
 // Of the edges that are pierced.
 bool CommonPart::Steps::mark_ends(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
-    is_marked_.assign(s.edges.size(), 0);
-    for (const auto& [e, place] : pierced_[solid]) {
-        if (std::exchange(is_marked_[e], 1) != 0) continue;
-        const std::span<Stop> stops = stops_[solid].of(e);
-        if (!sort_stops(s.edges[e], s.facets[place].number, s, stops)) return false;
+    VertexSides& sides = sides_[solid];
+    for (const Buckets<Stop>::Bucket& b : stops_[solid].buckets()) {
+        const OutlinedSolid::Edge& edge = s.edges[b.key];
+        const std::span<Stop> stops = stops_[solid].of(b);
+        if (!sort_stops(edge, s.facets[stops.front().place].number, s, stops)) return false;
         for (std::size_t i = 1; i < stops.size(); ++i)
             if (stops[i].opens == stops[i - 1].opens) return false;
-        if (!mark(solid, s.edges[e].from, stops.front().opens ? Side::Closed : Side::Open) ||
-            !mark(solid, s.edges[e].to, stops.back().opens ? Side::Open : Side::Closed))
+        if (!sides.mark(edge.from, stops.front().opens ? Side::Closed : Side::Open) ||
+            !sides.mark(edge.to, stops.back().opens ? Side::Open : Side::Closed))
             return false;
     }
     return true;
@@ -309,71 +311,44 @@ void CommonPart::Steps::mark_beyond(std::size_t solid) {
     const OutlinedSolid& s = *solids_[solid];
     const OutlineBox& other = solids_[1 - solid]->box;
     const Side far = is_far_open(solid) ? Side::Open : Side::Closed;
-    for (const std::uint32_t f : near_[solid]) {
-        if (other.contains(s.boxes[f])) continue;
-        for (const OutlinedSolid::Edge& e : s.edges_of(s.facets[f])) {
-            if (sides_[solid][e.from] != Side::Unknown) continue;
-            OutlineBox box = OutlineBox::none();
-            box.add(s.vertices[e.from].at);
-            if (!box.meets(other)) sides_[solid][e.from] = far;
-        }
-    }
+    VertexSides& sides = sides_[solid];
+    for (const std::uint32_t v : sides.listed())
+        if (sides.of(v) == Side::Unknown && other.is_beside(s.vertices[v].at)) sides.of(v) = far;
 }
 
-// Those of facets that are near.
-void CommonPart::Steps::join_vertices(std::size_t solid) {
-    const OutlinedSolid& s = *solids_[solid];
-    joined_.start(s.vertices.size());
-    for (const std::uint32_t f : near_[solid]) {
-        const std::uint32_t first = s.facets[f].first;
-        for (std::uint32_t e = first; e < first + s.facets[f].count; ++e)
-            if (!stops_[solid].has(e)) joined_.join(s.edges[e].from, s.edges[e].to);
-    }
-}
-
-// Of the vertices of facets that are near. Each is where an edge begins.
 bool CommonPart::Steps::find_sides(std::size_t solid) {
-    const OutlinedSolid& s = *solids_[solid];
-    std::vector<Side>& sides = sides_[solid];
-    sides.assign(s.vertices.size(), Side::Unknown);
+    VertexSides& sides = sides_[solid];
+    list_vertices(solid);
     if (!mark_ends(solid)) return false;
     mark_beyond(solid);
-    join_vertices(solid);
-    const auto for_each_vertex = [&](const auto& is_right) {
-        return std::ranges::all_of(near_[solid], [&](std::uint32_t f) {
-            return std::ranges::all_of(s.edges_of(s.facets[f]), [&](const OutlinedSolid::Edge& e) {
-                return is_right(e.from);
-            });
-        });
-    };
-    const auto mark_root = [&](std::uint32_t v) {
-        return sides[v] == Side::Unknown || mark(solid, joined_.root(v), sides[v]);
-    };
-    const auto take_side_of_root = [&](std::uint32_t v) {
-        const std::uint32_t root = joined_.root(v);
-        if (sides[root] == Side::Unknown) {
-            const auto open = side_of_part(solid, joined_, root);
+    for (const std::uint32_t v : sides.listed())
+        if (const Side side = sides.of(v);
+            side != Side::Unknown && !sides.mark(sides.root(v), side))
+            return false;
+    for (const std::uint32_t v : sides.listed()) {
+        const std::uint32_t root = sides.root(v);
+        if (sides.of(root) == Side::Unknown) {
+            const auto open = side_of_part(solid, root);
             if (!open) return false;
-            sides[root] = *open ? Side::Open : Side::Closed;
+            sides.of(root) = *open ? Side::Open : Side::Closed;
         }
-        if (sides[v] == Side::Unknown) sides[v] = sides[root];
-        return sides[v] == sides[root];
-    };
-    return for_each_vertex(mark_root) && for_each_vertex(take_side_of_root);
+        if (!sides.mark(v, sides.of(root))) return false;
+    }
+    return true;
 }
 
 // Of vertices that hang together and that nothing separates from the other solid.
-std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, DisjointSets& joined,
-                                                    std::uint32_t root) {
+std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, std::uint32_t root) {
     const OutlinedSolid& s = *solids_[solid];
     const OutlinedSolid& other = *solids_[1 - solid];
+    VertexSides& sides = sides_[solid];
     if (const auto open = is_open_at(s.vertices[root].at, other, segments_, 1 - solid)) return open;
-    for (std::uint32_t v = root; v < s.vertices.size(); ++v)
-        if (s.vertices[v].kind == OutlineVertex::Kind::Corner && joined.root(v) == root)
+    for (const std::uint32_t v : sides.listed())
+        if (s.vertices[v].kind == OutlineVertex::Kind::Corner && sides.root(v) == root)
             return is_open_at_corner(s.vertices[v], other, exact_);
     // None is left of them. Another vertex may be clear of the other solid's boundary.
-    for (std::uint32_t v = root + 1; v < s.vertices.size(); ++v)
-        if (joined.root(v) == root)
+    for (const std::uint32_t v : sides.listed())
+        if (v != root && sides.root(v) == root)
             if (const auto open = is_open_at(s.vertices[v].at, other, segments_, 1 - solid))
                 return open;
     return std::nullopt;

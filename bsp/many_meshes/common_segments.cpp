@@ -21,23 +21,20 @@
 
 namespace trisect::detail {
 
-namespace {
-
-constexpr std::uint32_t no_plane = ~std::uint32_t{0};
-
-}  // namespace
-
 void CommonSegments::start(const OutlinedSolid& first, const OutlinedSolid& second) {
     solids_ = {&first, &second};
     sides_.clear();
     planes_.clear();
-    for (std::size_t i = 0; i < 2; ++i) plane_of_[i].assign(solids_[i]->facets.size(), no_plane);
+    ++turn_;
+    for (std::size_t i = 0; i < 2; ++i)
+        if (plane_of_[i].size() < solids_[i]->facets.size())
+            plane_of_[i].resize(solids_[i]->facets.size());
 }
 
 FilteredPlane CommonSegments::plane(std::size_t solid, std::uint32_t place) {
-    std::uint32_t& number = plane_of_[solid][place];
-    if (number != no_plane) return planes_[number];
-    number = static_cast<std::uint32_t>(planes_.size());
+    MadePlane& made = plane_of_[solid][place];
+    if (made.turn == turn_) return planes_[made.number];
+    made = {turn_, planes_.size()};
     const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
     const std::uint32_t facet = f.number - meshes_.operands->operands[f.slot].first;
     planes_.push_back(FilteredFacets::plane_of(meshes_.corners(f.slot, facet), meshes_.extent));

@@ -76,7 +76,12 @@ private:
     const ManyMeshes& meshes_;
     const ShiftedPoints& exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
-    std::array<std::vector<std::uint32_t>, 2> plane_of_;  // by place, where one was wanted
+    struct MadePlane {
+        std::uint64_t turn = 0;  // of the solids for which it was made last
+        std::size_t number = 0;
+    };
+    std::array<std::vector<MadePlane>, 2> plane_of_;  // by place
+    std::uint64_t turn_ = 0;
     std::vector<FilteredPlane> planes_;
     FlatMap sides_;  // of vertices that doubles leave open, and whether moves decided them
     std::vector<CommonSegment> segments_;

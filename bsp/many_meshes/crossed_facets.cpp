@@ -11,7 +11,6 @@
 #include <limits>
 #include <utility>
 
-#include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 
 namespace trisect::detail {
@@ -35,6 +34,8 @@ bool are_few_pairs(const Items& items) {
     const bool few = items[0].size() + items[1].size() <= few_items;
     return pairs_of(items) <= (few ? pairs_of_few : few_pairs);
 }
+
+constexpr std::array<std::size_t, 2> second_first{1, 0};
 
 // So that no other cell lists it.
 bool lies_within(const OutlineBox& box, const OutlineBox& bounds) {
@@ -203,52 +204,33 @@ bool CrossedFacetsFinder::divide(Cell& cell, const Splitter& splitter) {
 }
 
 bool CrossedFacetsFinder::compare(const Cell& cell) {
-    polygons_.clear();
-    for (std::size_t i = 0; i < 2; ++i)
-        for (const Item& item : cell.items[i]) {
-            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
-            polygons_.push_back({meshes_.sources[f.slot], nullptr,
-                                 f.number - meshes_.operands->operands[f.slot].first, false,
-                                 false});
-        }
-    const std::span<const PolygonRef> all(polygons_);
-    const std::size_t n = cell.items[0].size();
-    const std::array<LeafOperand, 2> operands{LeafOperand{0, all.first(n), false, true, 0},
-                                              LeafOperand{1, all.subspan(n), false, true, 0}};
-    FinePoint near;
-    const LatticePoint& corner = all[0].source->corner(all[0].facet, 0);
-    for (std::size_t k = 0; k < 3; ++k)
-        near.c[k] = position_of(corner[static_cast<int>(k)]) * splitting_scale;
+    const std::size_t count = cell.items[0].size() + cell.items[1].size();
     ++stats_->mixed_leaves;
     ++stats_->filtered_leaves;
-    stats_->listed_polygons += all.size();
-    if (!facets_.list({trisect::detail::Cell{}, near, operands, nullptr, &options_})) return false;
-    draw_in_boxes(cell);
+    stats_->listed_polygons += count;
+    pairs_.start(count, cell.items[0][0].box.lo);
+    for (const std::size_t i : second_first) {
+        for (const Item& item : cell.items[i]) {
+            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
+            pairs_.add(f.slot, f.number, item.box);
+        }
+        if (i == 1) pairs_.end_second();
+    }
     leave_out_planes(cell);
-    pairs_.relate_all_by_planes_but(doubtful_, facets_, *stats_);
-    keep_crossings(cell);
+    if (!pairs_.find()) return false;
+    stats_->pairs_boxes += pairs_.box_pairs();
+    stats_->pairs_touching += pairs_.crossings().size();
+    stats_->pairs_cutting += pairs_.crossings().size();
+    for (const WholeFacetPairs::Crossing& c : pairs_.crossings())
+        keep(cell, places_of(cell, c.places), c.ends);
     decide(cell);
     return true;
-}
-
-void CrossedFacetsFinder::draw_in_boxes(const Cell& cell) {
-    LeafIndex number = 0;
-    for (const auto& items : cell.items)
-        for (const Item& item : items) {
-            FilteredFacet& f = facets_[number++];
-            const Approximation lo = facets_.from_lattice({item.box.lo, 0.0});
-            const Approximation hi = facets_.from_lattice({item.box.hi, 0.0});
-            for (std::size_t k = 0; k < 3; ++k) {
-                f.lo[k] = std::max(f.lo[k], lo.c[k] - 2 * lo.error);
-                f.hi[k] = std::min(f.hi[k], hi.c[k] + 2 * hi.error);
-            }
-        }
 }
 
 // Facets of one plane do not cross, and what they touch is found for all of them together.
 void CrossedFacetsFinder::leave_out_planes(const Cell& cell) {
     planes_.clear();
-    for (std::size_t i = 0; i < 2; ++i) {
+    for (const std::size_t i : second_first) {
         in_planes_[i].clear();
         for (const Item& item : cell.items[i]) {
             const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
@@ -258,33 +240,15 @@ void CrossedFacetsFinder::leave_out_planes(const Cell& cell) {
         }
         std::ranges::stable_sort(in_planes_[i], {}, &SpecialPairs::InCell::plane);
     }
-    const bool are_some = !in_planes_[0].empty() && !in_planes_[1].empty();
-    if (are_some) special_.look_at_planes(in_planes_[0], in_planes_[1]);
-    pairs_.leave_out_planes(are_some ? std::span<const std::uint32_t>(planes_)
-                                     : std::span<const std::uint32_t>());
-}
-
-void CrossedFacetsFinder::keep_crossings(const Cell& cell) {
-    const std::size_t n = cell.items[0].size();
-    for (const FilteredCrossing& c : pairs_.crossings()) {
-        std::array<FacetCrossing::End, 2> ends;
-        for (std::size_t k = 0; k < 2; ++k) {
-            const FilteredEnd& end = c.ends[k];
-            ends[k] = {facets_.in_lattice(end.at), end.of_second, end.edge};
-        }
-        keep(cell,
-             {cell.items[0][as_index(c.items[0])].place,
-              cell.items[1][as_index(c.items[1]) - n].place},
-             ends);
-    }
+    if (in_planes_[0].empty() || in_planes_[1].empty()) return;
+    special_.look_at_planes(in_planes_[0], in_planes_[1]);
+    pairs_.leave_out_planes(planes_);
 }
 
 void CrossedFacetsFinder::decide(const Cell& cell) {
-    const std::size_t n = cell.items[0].size();
-    for (const auto& [first, second] : doubtful_) {
+    for (const WholeFacetPairs::Places& pair : pairs_.doubtful()) {
         ++stats_->doubtful_pairs;
-        const std::array places{cell.items[0][as_index(first)].place,
-                                cell.items[1][as_index(second) - n].place};
+        const std::array places = places_of(cell, pair);
         const auto crossing = special_.crossing(solids_[0]->facets[places[0]].number,
                                                 solids_[1]->facets[places[1]].number);
         if (!crossing) continue;

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include <trisect/bsp/cells/work_budget.h>
-#include <trisect/bsp/leaf/doubles/filtered_facets.h>
-#include <trisect/bsp/leaf/doubles/filtered_pairs.h>
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 #include <trisect/bsp/many_meshes/special_pairs.h>
+#include <trisect/bsp/many_meshes/whole_facet_pairs.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -30,7 +29,7 @@ class CrossedFacetsFinder {
 public:
     CrossedFacetsFinder(const ManyMeshes& meshes, const EvaluateSettings& options,
                         SpecialPosition& special)
-        : meshes_(meshes), options_(options), special_(meshes, special) {}
+        : meshes_(meshes), options_(options), special_(meshes, special), pairs_(meshes) {}
 
     /// Places of facets whose boxes meet that of the other solid, ascending.
     using Places = std::array<std::span<const std::uint32_t>, 2>;
@@ -63,9 +62,11 @@ private:
     [[nodiscard]] static Splitter splitter_of(const Cell& cell);
     [[nodiscard]] bool divide(Cell& cell, const Splitter& splitter);
     [[nodiscard]] bool compare(const Cell& cell);
-    void draw_in_boxes(const Cell& cell);
     void leave_out_planes(const Cell& cell);
-    void keep_crossings(const Cell& cell);
+    [[nodiscard]] static std::array<std::uint32_t, 2> places_of(
+        const Cell& cell, const WholeFacetPairs::Places& pair) {
+        return {cell.items[0][pair[0]].place, cell.items[1][pair[1]].place};
+    }
     void decide(const Cell& cell);
     void keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
               const std::array<FacetCrossing::End, 2>& ends);
@@ -77,11 +78,8 @@ private:
     std::vector<CrossedFacets> found_;
     FlatMap known_;  // those that were found, where there are several cells
     EvaluateStats* stats_ = nullptr;
-    FilteredFacets facets_;
-    FilteredPairs pairs_;
-    FilteredPairs::Doubtful doubtful_;
-    std::vector<PolygonRef> polygons_;
-    std::vector<std::uint32_t> planes_;  // across axes, by item
+    WholeFacetPairs pairs_;
+    std::vector<std::uint32_t> planes_;  // across axes, of items of the second list and the first
     std::array<std::vector<SpecialPairs::InCell>, 2> in_planes_;
 };
 

@@ -97,6 +97,16 @@ struct OutlineBox {
             hi[k] = std::max(hi[k], b.hi[k]);
         }
     }
+    /// Whether a point is surely outside: the box with it alone would not meet this one.
+    [[nodiscard]] bool is_beside(const Approximation& p) const {
+        bool beside = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double margin = p.error == 0 ? 0 : p.error + 0x1p-51 * std::fabs(p.c[k]);
+            beside |= p.c[k] + margin < lo[k];
+            beside |= p.c[k] - margin > hi[k];
+        }
+        return beside;
+    }
     [[nodiscard]] bool contains(const OutlineBox& b) const {
         return lo[0] <= b.lo[0] && b.hi[0] <= hi[0] && lo[1] <= b.lo[1] && b.hi[1] <= hi[1] &&
                lo[2] <= b.lo[2] && b.hi[2] <= hi[2];

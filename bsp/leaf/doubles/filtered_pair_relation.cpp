@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Two facets in general position meet in a segment or not at all. Both meet the common line of
-// their supports in an interval, if their corners are on both sides of the other one's support.
-// With the corners numbered so that the first one is alone on its side, every end of an interval is
-// where an edge from that corner pierces the other support, and the order of two such points, one
-// of either facet, is the orientation of the four corners (Guigue and Devillers, "Fast and robust
-// triangle-triangle overlap test using orientation predicates", 2003). Four orientations decide
-// whether the intervals overlap and which points are the ends of what they share. No plane in
-// integers is made for that. Of whole facets of more than two operands, single precision decides as
-// much for four pairs at once (facet_row_relation.cpp), and what it leaves open comes here.
+// Of two whole facets a few signs decide (triangle_relation.cpp), and of more than two operands
+// single precision decides as much for four pairs at once (facet_row_relation.cpp); what it leaves
+// open comes here.
 //
 // Chains of cuts by one tool bring more: where a symmetric tool moves by equal steps along two axes
 // four of its facets have a point in common, so corners of fragments lie on the next tool's facets
@@ -19,6 +13,7 @@
 // path.
 
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
+#include <trisect/bsp/leaf/doubles/triangle_relation.h>
 #include <trisect/kernel/number/orientation.h>
 
 #include <algorithm>
@@ -28,94 +23,6 @@
 namespace trisect::detail {
 
 namespace {
-
-// Corners of one facet with respect to the support of another one.
-struct CornerSides {
-    std::array<double, 3> value{};
-    double bound = 0;
-    int above = 0;
-    int below = 0;
-
-    CornerSides(const FilteredPlane& plane, const std::array<Vector3, 3>& corners)
-        : bound(plane.bound) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            value[i] = plane.value(corners[i]);
-            above += value[i] > bound ? 1 : 0;
-            below += value[i] < -bound ? 1 : 0;
-        }
-    }
-    [[nodiscard]] bool is_off() const { return above == 3 || below == 3; }
-    [[nodiscard]] bool is_sure() const { return above + below == 3; }
-    /// The corner that is alone on its side. \pre is_sure() and not is_off()
-    [[nodiscard]] std::size_t lonely() const {
-        const bool up = above == 1;
-        return (value[0] > 0) == up ? 0 : ((value[1] > 0) == up ? 1 : 2);
-    }
-};
-
-// A facet's corners, the lonely one first, and turned over if need be so that the other facet's
-// lonely corner is above it.
-struct Numbered {
-    std::array<std::size_t, 3> corner;
-    const std::array<Vector3, 3>& points;
-
-    Numbered(const std::array<Vector3, 3>& all, std::size_t lonely, bool turned) : points(all) {
-        corner = {lonely, (lonely + 1) % 3, (lonely + 2) % 3};
-        if (turned) std::swap(corner[1], corner[2]);
-    }
-    [[nodiscard]] const Vector3& operator[](std::size_t i) const { return points[corner[i]]; }
-    /// The edge between the lonely corner and another one.
-    [[nodiscard]] std::int8_t edge_to(std::size_t i) const {
-        const std::size_t a = corner[0];
-        const std::size_t b = corner[i];
-        return static_cast<std::int8_t>(b == (a + 1) % 3 ? a : b);
-    }
-};
-
-Approximation exact_point(const Vector3& p) { return {p, 0.0}; }
-
-// Where the edge from the lonely corner to corner i pierces the other support.
-bool pierce(const Numbered& t, const CornerSides& sides, std::size_t i, Approximation& x) {
-    return interpolate(exact_point(t[0]), sides.value[t.corner[0]], exact_point(t[i]),
-                       sides.value[t.corner[i]], 2 * sides.bound, x);
-}
-
-// The corner of a triangle that is alone on its side of a plane, and the edges that go through that
-// upwards and downwards.
-class Lonely {
-public:
-    /// \pre bit i: corner i is above; one or two are
-    explicit Lonely(unsigned above) : is_above_(above == 1 || above == 2 || above == 4) {
-        constexpr std::array<std::uint8_t, 8> corner{0, 0, 1, 2, 2, 1, 0, 0};
-        corner_ = corner[above];
-    }
-    [[nodiscard]] std::size_t corner() const { return corner_; }
-    /// The other end of that edge.
-    [[nodiscard]] std::size_t other(bool up) const {
-        constexpr std::array<std::uint8_t, 3> next{1, 2, 0};
-        return up == is_above_ ? next[next[corner_]] : next[corner_];
-    }
-    [[nodiscard]] std::int8_t edge(bool up) const {
-        return static_cast<std::int8_t>(up == is_above_ ? other(up) : corner_);
-    }
-
-private:
-    std::size_t corner_;
-    bool is_above_;
-};
-
-unsigned bits_at(const std::array<unsigned, 3>& bits, unsigned i) {
-    return (bits[0] >> i & 1U) | (bits[1] >> i & 1U) << 1 | (bits[2] >> i & 1U) << 2;
-}
-
-// Where one of those edges pierces the plane. False when doubles say too little.
-bool pierce(const std::array<Vector3, 3>& corners, const FilteredPlane& plane, const Lonely& lonely,
-            bool up, Approximation& x) {
-    const Vector3& from = corners[lonely.corner()];
-    const Vector3& to = corners[lonely.other(up)];
-    return interpolate({from, 0.0}, plane.value(from), {to, 0.0}, plane.value(to), 2 * plane.bound,
-                       x);
-}
 
 // -1, 0, 1: on which side of a plane a corner of an item's outline is. Exact.
 int exact_side(const FilteredFacet& f, std::size_t i, const Plane& plane) {
@@ -249,6 +156,24 @@ bool is_outside_cell(const FilteredFacets& facets, const Approximation& a, const
     return false;
 }
 
+// Of whole facets. False when doubles say too little of where the ends are.
+bool set_crossing(const FilteredFacets& facets, LeafIndex s, LeafIndex t, const TriangleRelation& r,
+                  FilteredCrossing& out) {
+    const TriangleAndPlane first{facets[s].corners, facets[s].plane};
+    const TriangleAndPlane second{facets[t].corners, facets[t].plane};
+    out.items = {s, t};
+    out.above = r.above;
+    out.on = {};
+    for (std::size_t k = 0; k < 2; ++k) {
+        const TriangleRelation::End end = r.end(k);
+        out.ends[k].of_second = end.of_second;
+        out.ends[k].edge = end.edge.edge(end.up);
+        out.ends[k].other_edge = -1;
+        if (!find_end(first, second, end, out.ends[k].at)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool FilteredPairs::add_pair(FilteredFacets& facets, LeafIndex s, LeafIndex t) {
@@ -264,24 +189,8 @@ bool FilteredPairs::add_pair(FilteredFacets& facets, LeafIndex s, LeafIndex t) {
 bool FilteredPairs::add_crossing(const FilteredFacets& facets, LeafIndex s, LeafIndex t,
                                  const FacetRows::Relation& relation, unsigned i) {
     FilteredCrossing& out = found_;
-    const std::size_t first = s < t ? 0 : 1;
-    out.items[first] = s;
-    out.items[1 - first] = t;
-    out.above[first] = bits_at(relation.above[0], i);
-    out.above[1 - first] = bits_at(relation.above[1], i);
-    out.on = {};
-    const auto set_end = [&](FilteredEnd& end, bool second, bool up) {
-        end.of_second = (first == 0) == second;
-        const std::size_t side = end.of_second ? 1 : 0;
-        const Lonely lonely(out.above[side]);
-        end.edge = lonely.edge(up);
-        end.other_edge = -1;
-        return pierce(facets[out.items[side]].corners, facets[out.items[1 - side]].plane, lonely,
-                      up, end.at);
-    };
-    const bool starts = (relation.starts >> i & 1U) != 0;
-    const bool ends = (relation.ends >> i & 1U) != 0;
-    if (!set_end(out.ends[first], starts, !starts) || !set_end(out.ends[1 - first], ends, ends))
+    const TriangleRelation r(relation, i);
+    if (!(s < t ? set_crossing(facets, s, t, r, out) : set_crossing(facets, t, s, r.turned(), out)))
         return false;
     if (facets[s].contained || facets[t].contained ||
         !is_outside_cell(facets, out.ends[0].at, out.ends[1].at))
@@ -292,52 +201,24 @@ bool FilteredPairs::add_crossing(const FilteredFacets& facets, LeafIndex s, Leaf
 FilteredPairs::Relation FilteredPairs::relate(FilteredFacets& facets, LeafIndex s, LeafIndex t,
                                               FilteredCrossing& out) const {
     if (!facets[s].is_whole() || !facets[t].is_whole()) return relate_outlines(facets, s, t, out);
-    const FilteredFacet& a = facets[s];
-    const FilteredFacet& b = facets[t];
-    const CornerSides of_b(facets.plane(s), b.corners);
-    if (of_b.is_off()) return Relation::Apart;
-    const CornerSides of_a(facets.plane(t), a.corners);
-    if (of_a.is_off()) return Relation::Apart;
-    // Where edges are taken to be apart, relate_outlines() would look at the same values again.
-    if (!of_a.is_sure() || !of_b.is_sure())
-        return edges_apart_ ? Relation::Uncertain : relate_outlines(facets, s, t, out);
-    const std::size_t lonely_a = of_a.lonely();
-    const std::size_t lonely_b = of_b.lonely();
-    const bool turned_a = of_b.value[lonely_b] < 0;
-    const bool turned_b = of_a.value[lonely_a] < 0;
-    const Numbered p(a.corners, lonely_a, turned_a);
-    const Numbered q(b.corners, lonely_b, turned_b);
-    // In the direction of the normals' product, as both are turned now, the interval of a runs from
-    // its edge to corner 2 to that to corner 1, the one of b from 1 to 2. order(i, j) > 0: b's edge
-    // to corner j comes before a's to corner i.
-    const auto order = [&](std::size_t i, std::size_t j) {
-        return filtered_orientation(p[0], p[i], q[0], q[j]);
-    };
-    const int start_of_b = order(1, 1);
-    if (start_of_b < 0) return Relation::Apart;
-    const int start_of_a = order(2, 2);
-    if (start_of_a > 0) return Relation::Apart;
-    const int starts = order(2, 1);
-    const int ends = order(1, 2);
-    if (start_of_b == 0 || start_of_a == 0 || starts == 0 || ends == 0)
-        return relate_outlines(facets, s, t, out);
-    out.items = {s, t};
-    out.above = out.on = {};
-    for (std::size_t i = 0; i < 3; ++i) {
-        out.above[0] |= (of_a.value[i] > 0 ? 1U : 0U) << i;
-        out.above[1] |= (of_b.value[i] > 0 ? 1U : 0U) << i;
+    const FilteredPlane& plane_s = facets.plane(s);
+    const FilteredPlane& plane_t = facets.plane(t);
+    const TriangleRelation r =
+        relate_triangles({facets[s].corners, plane_s}, {facets[t].corners, plane_t});
+    switch (r.kind) {
+        case TriangleRelation::Kind::Apart:
+            return Relation::Apart;
+        case TriangleRelation::Kind::Crossing:
+            return set_crossing(facets, s, t, r, out) ? Relation::Crossing : Relation::Uncertain;
+        case TriangleRelation::Kind::NearPlane:
+            // Where edges are taken to be apart, relate_outlines() would look at the same values
+            // again.
+            if (edges_apart_) return Relation::Uncertain;
+            break;
+        case TriangleRelation::Kind::NearEdges:
+            break;
     }
-    const auto set_end = [&](FilteredEnd& end, bool of_second, std::size_t corner) {
-        end.of_second = of_second;
-        end.edge = (of_second ? q : p).edge_to(corner);
-        end.other_edge = -1;
-        return of_second ? pierce(q, of_b, corner, end.at) : pierce(p, of_a, corner, end.at);
-    };
-    // The later start and the earlier end.
-    const std::size_t start = turned_a != turned_b ? 1 : 0;
-    const bool sure = set_end(out.ends[start], starts < 0, starts < 0 ? 1 : 2) &&
-                      set_end(out.ends[1 - start], ends > 0, ends > 0 ? 2 : 1);
-    return sure ? Relation::Crossing : Relation::Uncertain;
+    return relate_outlines(facets, s, t, out);
 }
 
 FilteredPairs::Relation FilteredPairs::relate_outlines(FilteredFacets& facets, LeafIndex s,

@@ -229,7 +229,7 @@ bool FilteredPairs::relate(FilteredFacets& facets, std::span<const std::uint8_t>
     edges_apart_ = edges_apart;
     crossings_.clear();
     has_partner_.assign(as_index(facets.size()), 0);
-    const bool two = facets.operand_count() == 2 && marks.empty() && !by_planes_;
+    const bool two = facets.operand_count() == 2 && marks.empty();
     if (!(two ? relate_two(facets, stats) : sweep(facets, marks, stats))) return false;
     stats.pairs_touching += crossings_.size();
     stats.pairs_cutting += crossings_.size();

@@ -73,14 +73,6 @@ public:
         static_cast<void>(relate(facets, {}, true, stats));
         doubtful_ = nullptr;
     }
-    /// The same, but planes in single precision part most pairs first. For boundaries that lie
-    /// close to each other.
-    void relate_all_by_planes_but(Doubtful& doubtful, FilteredFacets& facets,
-                                  EvaluateStats& stats) {
-        by_planes_ = true;
-        relate_all_but(doubtful, facets, stats);
-        by_planes_ = false;
-    }
     /// Pairs that are known to lie in one plane are left out from here on, where they have the same
     /// number: by item, 0 where nothing is known.
     void leave_out_planes(std::span<const std::uint32_t> known) { known_planes_ = known; }
@@ -152,7 +144,6 @@ private:
     }
 
     bool edges_apart_ = false;
-    bool by_planes_ = false;
     Doubtful* doubtful_ = nullptr;  // where such pairs are taken out
     std::span<const std::uint32_t> known_planes_;
     std::vector<Candidate> candidates_;

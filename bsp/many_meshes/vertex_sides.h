@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// VertexSides: on which side of another solid some vertices lie, by what hangs together.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace trisect::detail {
+
+/// Of the vertices of one solid those that are listed; keeps its memory, and what is done takes
+/// time by these.
+class VertexSides {
+public:
+    enum class Side : std::uint8_t { Unknown, Open, Closed };
+
+    void start(std::size_t vertex_count) {
+        listed_.clear();
+        if (marks_.size() < vertex_count) marks_.resize(vertex_count);
+        ++turn_;
+    }
+    /// A vertex may come more than once.
+    void list(std::uint32_t v) {
+        Mark& m = marks_[v];
+        if (m.turn == turn_) return;
+        m = {turn_, v, Side::Unknown};
+        listed_.push_back(v);
+    }
+    /// Each once, in the order in which they came first.
+    [[nodiscard]] std::span<const std::uint32_t> listed() const { return listed_; }
+
+    /// \pre listed; so for all that follows
+    [[nodiscard]] Side& of(std::uint32_t v) { return marks_[v].side; }
+    [[nodiscard]] Side of(std::uint32_t v) const { return marks_[v].side; }
+    /// False where it has another one.
+    [[nodiscard]] bool mark(std::uint32_t v, Side side) {
+        Side& known = marks_[v].side;
+        if (known == Side::Unknown) known = side;
+        return known == side;
+    }
+    /// Both lie on one side.
+    void join(std::uint32_t a, std::uint32_t b) {
+        a = root(a);
+        b = root(b);
+        if (a != b) marks_[std::max(a, b)].parent = std::min(a, b);
+    }
+    /// The least of those that are joined to it.
+    [[nodiscard]] std::uint32_t root(std::uint32_t v) {
+        while (marks_[v].parent != v) {
+            std::uint32_t& parent = marks_[v].parent;
+            v = parent = marks_[parent].parent;
+        }
+        return v;
+    }
+
+private:
+    struct Mark {
+        std::uint64_t turn = 0;  // in which it was listed last
+        std::uint32_t parent = 0;
+        Side side = Side::Unknown;
+    };
+    std::vector<Mark> marks_;  // by vertex
+    std::vector<std::uint32_t> listed_;
+    std::uint64_t turn_ = 0;
+};
+
+}  // namespace trisect::detail

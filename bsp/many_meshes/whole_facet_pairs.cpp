@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Boxes first, four of the second list at once; then planes in single precision, also four at once,
+// which part most pairs or find how they cross; the rest is for doubles.
+//
+// In single precision coordinates are taken from a point near all facets. The difference carries a
+// rounding of 2^-53 of itself, which is far below what single precision rounds: its bounds
+// (facet_rows.cpp) have room for it, and so have those of boxes.
+
+#include <trisect/bsp/many_meshes/whole_facet_pairs.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <trisect/kernel/number/vector3.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// So many are listed before they are related.
+constexpr std::size_t many_pairs = 4096;
+
+// Differences of coordinates up to this are exact.
+constexpr double exact_limit = 0x1p53;
+
+// Of the boxes of a row. Without a call, which std::popcount is on the oldest processors.
+constexpr std::array<std::uint8_t, 16> count_of{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+
+}  // namespace
+
+void WholeFacetPairs::start(std::size_t count, const Vector3& near) {
+    near_ = near;
+    facets_.clear();
+    facets_.reserve(count);
+    second_ = 0;
+    boxes_.clear();
+    probes_.clear();
+    known_planes_ = {};
+    pairs_.clear();
+    crossings_.clear();
+    doubtful_.clear();
+    box_pairs_ = 0;
+}
+
+void WholeFacetPairs::add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box) {
+    Facet& f = facets_.emplace_back();
+    f.corners = meshes_.corners(slot, number - meshes_.operands->operands[slot].first);
+    const Vector3 lo = minus(box.lo, near_);
+    const Vector3 hi = minus(box.hi, near_);
+    if (second_ == 0) {
+        boxes_.add(lo, hi, 1);
+    } else {
+        probes_.push_back(BoxRows::probe(lo, hi, 0));
+    }
+}
+
+bool WholeFacetPairs::find() {
+    boxes_.add_hulls();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vector3 low{infinity, infinity, infinity};
+    Vector3 high{-infinity, -infinity, -infinity};
+    for (const Facet& f : facets_)
+        for (const Vector3& c : f.corners)
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], c[k]);
+                high[k] = std::max(high[k], c[k]);
+            }
+    Vector3 extent;
+    for (std::size_t k = 0; k < 3; ++k) {
+        extent[k] = (std::max(high[k], near_[k]) - std::min(low[k], near_[k])) * slightly_more;
+        if (!(extent[k] < exact_limit)) return false;
+    }
+    make_planes(extent);
+    for (std::size_t i = 0; i < probes_.size(); ++i) compare(i);
+    relate_listed();
+    return true;
+}
+
+void WholeFacetPairs::make_planes(const Vector3& extent) {
+    planes_.start(extent);
+    for (Facet& f : facets_) {
+        f.plane = FilteredFacets::plane_of(f.corners, extent);
+        FilteredPlane plane = f.plane;
+        std::array<Vector3, 3> corners;
+        for (std::size_t i = 0; i < 3; ++i) corners[i] = minus(f.corners[i], near_);
+        plane.origin = corners[0];
+        planes_.add(corners, plane);
+    }
+}
+
+void WholeFacetPairs::compare(std::size_t first) {
+    const std::size_t i = second_ + first;
+    FacetRows::Probe facet;
+    bool has_facet = false;
+    static_cast<void>(boxes_.visit_meeting(0, probes_[first], [&](std::size_t row, unsigned met) {
+        if (!has_facet) facet = planes_.probe(i);
+        has_facet = true;
+        box_pairs_ += count_of[met];
+        for (met &= ~planes_.parted(row, facet, met); met != 0; met &= met - 1) {
+            const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
+            if (known_planes_.empty() || known_planes_[i] == 0 ||
+                known_planes_[i] != known_planes_[j])
+                pairs_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+        }
+        return true;
+    }));
+    if (pairs_.size() >= many_pairs) relate_listed();
+}
+
+// Four at once: single precision is enough for nearly all of them.
+void WholeFacetPairs::relate_listed() {
+    for (std::size_t first = 0; first < pairs_.size(); first += 4) {
+        const std::size_t count = std::min<std::size_t>(4, pairs_.size() - first);
+        std::array<FacetRows::Pair, 4> four;
+        for (std::size_t i = 0; i < 4; ++i) four[i] = pairs_[first + (i < count ? i : 0)];
+        const FacetRows::Relation relation = planes_.relate(four);
+        for (unsigned i = 0; i < count; ++i) {
+            if ((relation.apart >> i & 1U) != 0) continue;
+            if ((relation.crosses >> i & 1U) != 0) {
+                keep(four[i], TriangleRelation(relation, i));
+            } else {
+                relate(four[i]);
+            }
+        }
+    }
+    pairs_.clear();
+}
+
+void WholeFacetPairs::relate(const FacetRows::Pair& pair) {
+    const TriangleRelation r = relate_triangles(triangle(pair[0]), triangle(pair[1]));
+    if (r.kind == TriangleRelation::Kind::Apart) return;
+    if (r.kind == TriangleRelation::Kind::Crossing) {
+        keep(pair, r);
+    } else {
+        doubtful_.push_back(places(pair));
+    }
+}
+
+void WholeFacetPairs::keep(const FacetRows::Pair& pair, const TriangleRelation& relation) {
+    Crossing& made = crossings_.emplace_back();
+    made.places = places(pair);
+    for (std::size_t k = 0; k < 2; ++k) {
+        const TriangleRelation::End end = relation.end(k);
+        made.ends[k].of_second = end.of_second;
+        made.ends[k].edge = end.edge.edge(end.up);
+        if (find_end(triangle(pair[0]), triangle(pair[1]), end, made.ends[k].at)) continue;
+        doubtful_.push_back(made.places);
+        crossings_.pop_back();
+        return;
+    }
+}
+
+}  // namespace trisect::detail

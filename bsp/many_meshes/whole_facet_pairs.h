@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// WholeFacetPairs: which facets of one list cross which of another one, as far as doubles say.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <trisect/bsp/leaf/doubles/box_rows.h>
+#include <trisect/bsp/leaf/doubles/facet_rows.h>
+#include <trisect/bsp/leaf/doubles/triangle_relation.h>
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+
+namespace trisect::detail {
+
+/// Facets are whole ones; their boxes may be of parts. One pair of lists after the other; keeps its
+/// memory.
+class WholeFacetPairs {
+public:
+    explicit WholeFacetPairs(const ManyMeshes& meshes) : meshes_(meshes) {}
+
+    /// Begins two lists, of so many facets together. `near`: a point near all of them.
+    void start(std::size_t count, const Vector3& near);
+    /// Facets of the second list come first.
+    void add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box);
+    void end_second() { second_ = facets_.size(); }
+    /// Facets of one plane do not cross, where they have the same number: by place in the order in
+    /// which they were added, 0 where nothing is known.
+    void leave_out_planes(std::span<const std::uint32_t> known) { known_planes_ = known; }
+    /// False where they are too far apart for doubles.
+    [[nodiscard]] bool find();
+
+    /// Places in either list.
+    using Places = std::array<std::uint32_t, 2>;
+    struct Crossing {
+        Places places{};
+        std::array<FacetCrossing::End, 2> ends;
+    };
+    /// In the order of the first places, and then of the second ones.
+    [[nodiscard]] std::span<const Crossing> crossings() const { return crossings_; }
+    /// Pairs that doubles leave open.
+    [[nodiscard]] std::span<const Places> doubtful() const { return doubtful_; }
+    /// Of which boxes meet.
+    [[nodiscard]] std::size_t box_pairs() const { return box_pairs_; }
+
+private:
+    struct Facet {
+        std::array<Vector3, 3> corners;
+        FilteredPlane plane;
+    };
+    void make_planes(const Vector3& extent);
+    void compare(std::size_t first);
+    void relate_listed();
+    void relate(const FacetRows::Pair& pair);
+    void keep(const FacetRows::Pair& pair, const TriangleRelation& relation);
+    [[nodiscard]] TriangleAndPlane triangle(std::size_t i) const {
+        return {facets_[i].corners, facets_[i].plane};
+    }
+    [[nodiscard]] Places places(const FacetRows::Pair& pair) const {
+        return {pair[0] - static_cast<std::uint32_t>(second_), pair[1]};
+    }
+
+    const ManyMeshes& meshes_;
+    std::vector<Facet> facets_;
+    std::size_t second_ = 0;  // facets of the second list
+    Vector3 near_{};
+    BoxRows boxes_;                       // of the second list
+    std::vector<BoxRows::Probe> probes_;  // of the first one
+    FacetRows planes_;
+    std::span<const std::uint32_t> known_planes_;
+    std::vector<FacetRows::Pair> pairs_;  // that planes do not part, not yet related
+    std::vector<Crossing> crossings_;
+    std::vector<Places> doubtful_;
+    std::size_t box_pairs_ = 0;
+};
+
+}  // namespace trisect::detail
