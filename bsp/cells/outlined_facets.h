@@ -5,9 +5,9 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/kept_memory.h>
 
 namespace trisect::detail {
 
@@ -39,9 +39,9 @@ struct OutlinedFacets {
         std::uint32_t first = 0;  ///< of its edges, which follow each other in no order
         std::uint32_t count = 0;
     };
-    std::vector<OutlineVertex> vertices;
-    std::vector<Edge> edges;
-    std::vector<Facet> facets;  ///< ascending
+    KeptVector<OutlineVertex> vertices;
+    KeptVector<Edge> edges;
+    KeptVector<Facet> facets;  ///< ascending
 };
 
 }  // namespace trisect::detail

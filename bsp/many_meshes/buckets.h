@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include <trisect/kernel/support/kept_memory.h>
 
 namespace trisect::detail {
 
@@ -63,11 +64,11 @@ public:
     [[nodiscard]] bool has(std::uint32_t key) const { return place_[key] != 0; }
 
 private:
-    std::vector<std::uint32_t> keys_;
-    std::vector<Item> added_;
-    std::vector<Bucket> buckets_;
-    std::vector<std::uint32_t> place_;  // among these, from 1 on; 0 where a number has none
-    std::vector<Item> items_;
+    KeptVector<std::uint32_t> keys_;
+    KeptVector<Item> added_;
+    KeptVector<Bucket> buckets_;
+    KeptVector<std::uint32_t> place_;  // among these, from 1 on; 0 where a number has none
+    KeptVector<Item> items_;
 };
 
 }  // namespace trisect::detail

@@ -7,8 +7,7 @@
 #include <optional>
 
 #include <trisect/bsp/cells/work_budget.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
-#include <trisect/bsp/many_meshes/spare_outlines.h>
+#include <trisect/bsp/many_meshes/outline_store.h>
 #include <trisect/bsp/many_meshes/special_position.h>
 
 namespace trisect::detail {
@@ -21,11 +20,13 @@ public:
     CommonPart(const CommonPart&) = delete;
     CommonPart& operator=(const CommonPart&) = delete;
 
-    [[nodiscard]] SpareOutlines& spare();
-    /// What both leave open. Nothing where sides are not known. O(n log n) where facets meet few
-    /// others.
-    [[nodiscard]] std::optional<OutlinedSolid> of(OutlinedSolid first, OutlinedSolid second,
-                                                  EvaluateStats& stats);
+    /// With the solids of the calling thread.
+    [[nodiscard]] OutlineStore& store();
+    /// What the last two solids of the store both leave open, which takes their place. Nothing
+    /// where sides are not known. O(n log n) where facets meet few others.
+    using Solid = OutlineStore::Solid;
+    [[nodiscard]] std::optional<Solid> of(const Solid& first, const Solid& second,
+                                          EvaluateStats& stats);
     /// Of all so far.
     [[nodiscard]] const SpecialPosition& special() const;
 

@@ -12,6 +12,7 @@
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/kept_memory.h>
 
 namespace trisect::detail {
 
@@ -80,9 +81,9 @@ private:
         std::uint64_t turn = 0;  // of the solids for which it was made last
         std::size_t number = 0;
     };
-    std::array<std::vector<MadePlane>, 2> plane_of_;  // by place
+    std::array<KeptVector<MadePlane>, 2> plane_of_;  // by place
     std::uint64_t turn_ = 0;
-    std::vector<FilteredPlane> planes_;
+    KeptVector<FilteredPlane> planes_;
     FlatMap sides_;  // of vertices that doubles leave open, and whether moves decided them
     std::vector<CommonSegment> segments_;
     // Of one crossing:

@@ -26,6 +26,7 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,7 @@
 #include <trisect/bsp/many_meshes/common_part.h>
 #include <trisect/bsp/many_meshes/formula_reach.h>
 #include <trisect/bsp/many_meshes/operand_clusters.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outline_store.h>
 #include <trisect/bsp/many_meshes/thin_facets.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
@@ -269,6 +270,8 @@ Crowd crowd_of(const SolidStates& solids) {
 
 class BalancedTree {
 public:
+    using Solid = OutlineStore::Solid;
+
     BalancedTree(const ManyMeshes& meshes, const SolidStates& solids,
                  const EvaluateSettings& options, bool parallel)
         : meshes_(meshes), solids_(solids), options_(options), parallel_(parallel) {
@@ -276,14 +279,21 @@ public:
     }
 
     // What all operands leave open together.
-    [[nodiscard]] std::optional<OutlinedSolid> of_all(EvaluateStats& stats) const {
-        if (meshes_.nested != nullptr) return of_node(NestedFormula::root, 0, stats);
+    [[nodiscard]] std::optional<Solid> of_all(EvaluateStats& stats) const {
+        if (meshes_.nested != nullptr) return of_node(NestedFormula::root, stats);
         if (!first_is_last_) return of_rest(stats);
-        if (order_.empty() && clusters_.empty()) return of_operand(0, 0);
-        const std::size_t room = meshes_.facet_count();
+        if (order_.empty() && clusters_.empty()) return of_operand(0);
         return common_of(
-            room, stats, [&](EvaluateStats&) { return of_operand(0, room); },
+            meshes_.facet_count(), stats, [&](EvaluateStats&) { return of_operand(0); },
             [&](EvaluateStats& s) { return of_rest(s); });
+    }
+    // With what that is of, once it is all. The lines of all threads are with it.
+    [[nodiscard]] std::pair<OutlineStore, OutlineStore::Lines> take_store() {
+        OutlineStore::Lines lines;
+        common_.for_each([&](CommonPart& c) {
+            for (auto& l : c.store().take_lines()) lines.push_back(std::move(l));
+        });
+        return {std::move(common().store()), std::move(lines)};
     }
 
     // Of all so far; in no order.
@@ -336,105 +346,105 @@ private:
         return is_open_far_out(*solids_[slot], meshes_.operands->operands[slot]);
     }
 
-    // `room`: for so many facets, also in what follows. The first operand of all has room for all
-    // that is joined to it.
-    [[nodiscard]] OutlinedSolid of_operand(std::uint32_t slot, std::size_t room) const {
-        return whole_operand(meshes_, slot, is_open_far(slot), room, common().spare());
+    [[nodiscard]] std::optional<Solid> of_operand(std::uint32_t slot) const {
+        return common().store().add_operand(meshes_, slot, is_open_far(slot));
     }
-    [[nodiscard]] std::optional<OutlinedSolid> of_rest(EvaluateStats& stats) const {
-        if (clusters_.empty()) return of(order_, 0, stats);
+    [[nodiscard]] std::optional<Solid> of_rest(EvaluateStats& stats) const {
+        if (clusters_.empty()) return of(order_, stats);
         if (order_.empty()) return of_clusters(clusters_, stats);
-        const std::size_t room = meshes_.facet_count();
         return common_of(
-            room, stats, [&](EvaluateStats& s) { return of(order_, room, s); },
+            meshes_.facet_count(), stats, [&](EvaluateStats& s) { return of(order_, s); },
             [&](EvaluateStats& s) { return of_clusters(clusters_, s); });
     }
     // What operands leave open together.
-    [[nodiscard]] std::optional<OutlinedSolid> of(Slots slots, std::size_t room,
-                                                  EvaluateStats& stats) const {
-        if (slots.size() == 1) return of_operand(slots[0], room);
+    [[nodiscard]] std::optional<Solid> of(Slots slots, EvaluateStats& stats) const {
+        if (slots.size() == 1) return of_operand(slots[0]);
         const Slots first = slots.first(slots.size() / 2);
         const Slots second = slots.subspan(slots.size() / 2);
-        const std::size_t facets = facets_of(slots);
-        room = std::max(room, facets);
         return common_of(
-            facets, stats, [&](EvaluateStats& s) { return of(first, room, s); },
-            [&](EvaluateStats& s) { return of(second, 0, s); });
+            facets_of(slots), stats, [&](EvaluateStats& s) { return of(first, s); },
+            [&](EvaluateStats& s) { return of(second, s); });
     }
-    [[nodiscard]] std::optional<OutlinedSolid> of_clusters(Clusters clusters,
-                                                           EvaluateStats& stats) const {
+    [[nodiscard]] std::optional<Solid> of_clusters(Clusters clusters, EvaluateStats& stats) const {
         std::size_t facets = 0;
         for (const auto& slots : clusters) facets += facets_of(slots);
         if (clusters.size() > 1 && parallel_ && facets >= parallel_facets) {
             const std::size_t half = clusters.size() / 2;
-            auto [one, other] = both(
+            const auto [one, other] = both(
                 facets, stats,
                 [&](EvaluateStats& s) { return of_clusters(clusters.first(half), s); },
                 [&](EvaluateStats& s) { return of_clusters(clusters.subspan(half), s); });
             if (!one || !other) return std::nullopt;
-            add_apart(*other, *one);
-            return std::move(one);
+            return common().store().united_apart(*one, *other);
         }
-        OutlinedSolid out;
-        out.open_far_out = true;
+        Solid out = common().store().empty_solid(true);
         for (const auto& slots : clusters) {
-            std::optional<OutlinedSolid> solid = of(slots, out.facets.empty() ? facets : 0, stats);
+            const std::optional<Solid> solid = of(slots, stats);
             if (!solid) return std::nullopt;
-            add_apart(*solid, out);
-            common().spare().give_back(*std::move(solid));
+            out = common().store().united_apart(out, *solid);
         }
         return out;
     }
-    [[nodiscard]] std::optional<OutlinedSolid> of_node(std::uint32_t number, std::size_t room,
-                                                       EvaluateStats& stats) const {
+    [[nodiscard]] std::optional<Solid> of_node(std::uint32_t number, EvaluateStats& stats) const {
         const NestedFormula::Node& node = meshes_.nested->node(number);
-        if (node.slot >= 0) return of_operand(static_cast<std::uint32_t>(node.slot), room);
-        std::optional<OutlinedSolid> out = of_terms(node, 0, node.terms.size(), room, stats);
+        if (node.slot >= 0) return of_operand(static_cast<std::uint32_t>(node.slot));
+        std::optional<Solid> out = of_terms(node, 0, node.terms.size(), stats);
         if (out && node.unites) out->open_far_out = !out->open_far_out;
         return out;
     }
     // Of a union what is complement to all its terms.
-    [[nodiscard]] std::optional<OutlinedSolid> of_terms(const NestedFormula::Node& node,
-                                                        std::size_t first, std::size_t end,
-                                                        std::size_t room,
-                                                        EvaluateStats& stats) const {
+    [[nodiscard]] std::optional<Solid> of_terms(const NestedFormula::Node& node, std::size_t first,
+                                                std::size_t end, EvaluateStats& stats) const {
         if (first + 1 == end) {
-            std::optional<OutlinedSolid> out = of_node(node.terms[first], room, stats);
+            std::optional<Solid> out = of_node(node.terms[first], stats);
             if (out && node.unites) out->open_far_out = !out->open_far_out;
             return out;
         }
         const std::size_t middle = first + (end - first) / 2;
-        const std::size_t facets = facets_of_terms(node, first, end);
-        room = std::max(room, facets);
         return common_of(
-            facets, stats, [&](EvaluateStats& s) { return of_terms(node, first, middle, room, s); },
-            [&](EvaluateStats& s) { return of_terms(node, middle, end, 0, s); });
+            facets_of_terms(node, first, end), stats,
+            [&](EvaluateStats& s) { return of_terms(node, first, middle, s); },
+            [&](EvaluateStats& s) { return of_terms(node, middle, end, s); });
     }
 
-    using Pair = std::pair<std::optional<OutlinedSolid>, std::optional<OutlinedSolid>>;
+    using Pair = std::pair<std::optional<Solid>, std::optional<Solid>>;
     template <class Below, class Above>
     [[nodiscard]] Pair both(std::size_t facets, EvaluateStats& stats, const Below& below_by,
                             const Above& above_by) const {
         Pair out;
         EvaluateStats of_above;
-        const auto find_below = [&] { out.first = below_by(stats); };
-        const auto find_above = [&] { out.second = above_by(of_above); };
         if (parallel_ && facets >= parallel_facets) {
-            both_at_once(find_above, find_below);
+            out = both_in_parallel([&] { return below_by(stats); },
+                                   [&] { return above_by(of_above); });
         } else {
-            find_below();
-            if (out.first) find_above();
+            out.first = below_by(stats);
+            if (out.first) out.second = above_by(of_above);
         }
         stats += of_above;
         return out;
     }
+    // Each comes from the store of the thread that made it.
     template <class Below, class Above>
-    [[nodiscard]] std::optional<OutlinedSolid> common_of(std::size_t facets, EvaluateStats& stats,
-                                                         const Below& below_by,
-                                                         const Above& above_by) const {
-        auto [below, above] = both(facets, stats, below_by, above_by);
+    [[nodiscard]] Pair both_in_parallel(const Below& below_by, const Above& above_by) const {
+        using Taken = std::optional<std::pair<OutlineStore, Solid>>;
+        Taken below;
+        Taken above;
+        const auto take = [&](const std::optional<Solid>& solid, Taken& to) {
+            if (solid) to = common().store().take_out(*solid);
+        };
+        both_at_once([&] { take(above_by(), above); }, [&] { take(below_by(), below); });
+        if (!below || !above) return {};
+        OutlineStore& store = common().store();
+        const Solid first = store.put(below->first, below->second);
+        return {first, store.put(above->first, above->second)};
+    }
+    template <class Below, class Above>
+    [[nodiscard]] std::optional<Solid> common_of(std::size_t facets, EvaluateStats& stats,
+                                                 const Below& below_by,
+                                                 const Above& above_by) const {
+        const auto [below, above] = both(facets, stats, below_by, above_by);
         if (!below || !above) return std::nullopt;
-        return common().of(*std::move(below), *std::move(above), stats);
+        return common().of(*below, *above, stats);
     }
     // Of this thread.
     [[nodiscard]] CommonPart& common() const {
@@ -508,7 +518,8 @@ constexpr std::size_t facets_to_leave_sheets = 24;
 
 // What all operands leave open together, and the facets in special position.
 struct CommonOfAll {
-    OutlinedSolid solid;
+    OutlineStore store;
+    OutlineStore::Lines lines;           // that edges lie in
     std::vector<std::uint32_t> special;  // ascending
     bool has_sheets = false;             // or may have
 };
@@ -522,9 +533,10 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
     common.special.clear();
     for (std::uint32_t f = 0; f < facet_count; ++f)
         if (is_special[f] != 0) common.special.push_back(f);
-    for (const OutlinedSolid::Facet& f : common.solid.facets) {
+    const OutlinedSolid solid = common.store.view({});
+    for (const OutlinedSolid::Facet& f : solid.facets) {
         if (is_special[f.number] != 0) continue;
-        const auto edges = common.solid.edges_of(f);
+        const auto edges = solid.edges_of(f);
         if (std::ranges::any_of(edges, [&](const OutlinedSolid::Edge& e) {
                 const FacetCrossing* line = e.origin.line();
                 return line != nullptr &&
@@ -547,11 +559,10 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
     std::vector<OperandShifts::Wanted> wanted;
     for (int turn = 0;; ++turn) {
         meshes.shifts = &*shifts;
-        const BalancedTree tree(meshes, solids, options, threads != 1);
+        BalancedTree tree(meshes, solids, options, threads != 1);
         EvaluateStats made;
-        auto solid = tree.of_all(made);
-        if (!solid) return std::nullopt;
-        CommonOfAll out{*std::move(solid), {}};
+        if (!tree.of_all(made)) return std::nullopt;
+        CommonOfAll out;
         bool as_wanted = true;
         tree.for_each_special([&](const SpecialPosition& s) {
             out.special.insert(out.special.end(), s.facets().begin(), s.facets().end());
@@ -567,6 +578,7 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
         std::optional<OperandShifts> next;
         if (!as_wanted && !leaves_sheets) next = OperandShifts::satisfying(growths, wanted);
         if (!next) {
+            std::tie(out.store, out.lines) = tree.take_store();
             add_sharing(out, meshes.facet_count());
             out.has_sheets = !as_wanted;
             stats = made;
@@ -577,15 +589,15 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
 }
 
 // Groups of operands leave them in an order of their own.
-void sort_facets(OutlinedSolid& solid) {
-    if (!std::ranges::is_sorted(solid.facets, {}, &OutlinedSolid::Facet::number))
-        std::ranges::sort(solid.facets, {}, &OutlinedSolid::Facet::number);
+void sort_facets(KeptVector<OutlinedSolid::Facet>& facets) {
+    if (!std::ranges::is_sorted(facets, {}, &OutlinedSolid::Facet::number))
+        std::ranges::sort(facets, {}, &OutlinedSolid::Facet::number);
 }
 
 // For parts of facets, and those of their vertices that are wanted: most are of whole ones.
-void take_vertices(OutlinedFacets& outlined, OutlinedSolid& solid) {
+void take_vertices(OutlinedFacets& outlined, const OutlinedSolid& solid) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
-    std::vector<std::uint32_t> numbers(solid.vertices.size(), unused);
+    KeptVector<std::uint32_t> numbers(solid.vertices.size(), unused);
     for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
     std::uint32_t next = 0;
     for (std::uint32_t& n : numbers)
@@ -611,13 +623,14 @@ void reserve(OutlinedFacets& outlined, const OutlinedSolid& solid) {
 }
 
 // By what assembly needs.
-UndividedMeshes form_of(OutlinedSolid&& solid, const ManyMeshes& meshes, const Crossings& operands,
+UndividedMeshes form_of(OutlineStore& store, const ManyMeshes& meshes, const Crossings& operands,
                         std::shared_ptr<const LazyTree> tree) {
     UndividedMeshes out;
     for (std::size_t i = 0; i < meshes.sources.size(); ++i)
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
     auto outlined = std::make_shared<OutlinedFacets>();
-    sort_facets(solid);
+    sort_facets(store.facets());
+    const OutlinedSolid solid = store.view({});
     reserve(*outlined, solid);
     for (const OutlinedSolid::Facet& f : solid.facets) {
         if (f.whole) {
@@ -727,7 +740,7 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
     });
     if (!result) return std::nullopt;
     operands->special = std::move(result->special);
-    UndividedMeshes form = form_of(std::move(result->solid), meshes, *operands, std::move(tree));
+    UndividedMeshes form = form_of(result->store, meshes, *operands, std::move(tree));
     form.may_have_straight_crossings = nested && !operands->special.empty();
     form.may_have_sheets = result->has_sheets;
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();

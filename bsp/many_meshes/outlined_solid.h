@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -118,7 +117,8 @@ struct OutlineBox {
 };
 
 /// The set that all of some operands leave open (see Crossings). What bounds it is parts of their
-/// facets: whole ones, and others by their outlines.
+/// facets: whole ones, and others by their outlines. All of it is in an OutlineStore, and good
+/// until that changes.
 struct OutlinedSolid {
     struct Edge {
         std::uint32_t from = 0;  ///< vertices; the part is to the left, seen from above the facet
@@ -132,31 +132,17 @@ struct OutlinedSolid {
         std::uint32_t count = 0;
         bool whole = false;  ///< then the edges are those of the facet, in their order
     };
-    using Lines = std::vector<FacetCrossing>;
 
-    std::vector<Facet> facets;      ///< each once
-    std::vector<OutlineBox> boxes;  ///< of their parts
-    std::vector<Edge> edges;
-    std::size_t unused_edges = 0;  ///< those that no facet has
-    std::vector<OutlineVertex> vertices;
-    std::vector<std::unique_ptr<const Lines>> lines;  ///< that edges lie in
-    OutlineBox box = OutlineBox::none();              ///< of all
+    std::span<const Facet> facets;            ///< each once
+    std::span<const OutlineBox> boxes;        ///< of their parts
+    std::span<const Edge> edges;              ///< those of other solids, too
+    std::span<const OutlineVertex> vertices;  ///< as well
+    OutlineBox box = OutlineBox::none();      ///< of all
     bool open_far_out = false;
 
     [[nodiscard]] std::span<const Edge> edges_of(const Facet& f) const {
-        return std::span(edges).subspan(f.first, f.count);
+        return edges.subspan(f.first, f.count);
     }
 };
-
-class SpareOutlines;
-
-/// One operand, with room for so many facets in place of its own.
-[[nodiscard]] OutlinedSolid whole_operand(const ManyMeshes& meshes, std::uint32_t slot,
-                                          bool open_far_out, std::size_t room,
-                                          SpareOutlines& spare);
-
-/// Adds the boundary of a solid whose box is apart; both leave open what is far out. `to` is then
-/// what both leave open together; `solid` may be changed.
-void add_apart(OutlinedSolid& solid, OutlinedSolid& to);
 
 }  // namespace trisect::detail

@@ -9,19 +9,21 @@
 #include <span>
 #include <vector>
 
+#include <trisect/kernel/support/kept_memory.h>
+
 namespace trisect::detail {
 
-/// Of the vertices of one solid those that are listed; keeps its memory, and what is done takes
-/// time by these.
+/// Of vertices that are listed; keeps its memory, and what is done takes time by these.
 class VertexSides {
 public:
     enum class Side : std::uint8_t { Unknown, Open, Closed };
 
     void start(std::size_t vertex_count) {
-        listed_.clear();
         if (marks_.size() < vertex_count) marks_.resize(vertex_count);
         ++turn_;
     }
+    /// Begins a list. What was listed before since start() keeps its sides.
+    void start_list() { listed_.clear(); }
     /// A vertex may come more than once.
     void list(std::uint32_t v) {
         Mark& m = marks_[v];
@@ -62,7 +64,7 @@ private:
         std::uint32_t parent = 0;
         Side side = Side::Unknown;
     };
-    std::vector<Mark> marks_;  // by vertex
+    KeptVector<Mark> marks_;  // by vertex
     std::vector<std::uint32_t> listed_;
     std::uint64_t turn_ = 0;
 };

@@ -21,13 +21,13 @@ namespace trisect::detail {
 namespace {
 
 // So many are listed before they are related.
-constexpr std::size_t many_pairs = 4096;
+constexpr std::size_t pairs_at_once = 4096;
 
 // Differences of coordinates up to this are exact.
-constexpr double exact_limit = 0x1p53;
+constexpr double widest_extent = 0x1p53;
 
 // Of the boxes of a row. Without a call, which std::popcount is on the oldest processors.
-constexpr std::array<std::uint8_t, 16> count_of{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
+constexpr std::array<std::uint8_t, 16> boxes_met{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};
 
 }  // namespace
 
@@ -71,7 +71,7 @@ bool WholeFacetPairs::find() {
     Vector3 extent;
     for (std::size_t k = 0; k < 3; ++k) {
         extent[k] = (std::max(high[k], near_[k]) - std::min(low[k], near_[k])) * slightly_more;
-        if (!(extent[k] < exact_limit)) return false;
+        if (!(extent[k] < widest_extent)) return false;
     }
     make_planes(extent);
     for (std::size_t i = 0; i < probes_.size(); ++i) compare(i);
@@ -98,7 +98,7 @@ void WholeFacetPairs::compare(std::size_t first) {
     static_cast<void>(boxes_.visit_meeting(0, probes_[first], [&](std::size_t row, unsigned met) {
         if (!has_facet) facet = planes_.probe(i);
         has_facet = true;
-        box_pairs_ += count_of[met];
+        box_pairs_ += boxes_met[met];
         for (met &= ~planes_.parted(row, facet, met); met != 0; met &= met - 1) {
             const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
             if (known_planes_.empty() || known_planes_[i] == 0 ||
@@ -107,7 +107,7 @@ void WholeFacetPairs::compare(std::size_t first) {
         }
         return true;
     }));
-    if (pairs_.size() >= many_pairs) relate_listed();
+    if (pairs_.size() >= pairs_at_once) relate_listed();
 }
 
 // Four at once: single precision is enough for nearly all of them.

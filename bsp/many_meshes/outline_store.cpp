@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+
+#include <trisect/bsp/many_meshes/outline_store.h>
+
+#include <algorithm>
+
+namespace trisect::detail {
+
+void OutlineStore::reserve(const ManyMeshes& meshes) {
+    // Facets that are cut get more edges and vertices.
+    const std::size_t facets = meshes.facet_count();
+    facets_.reserve(facets);
+    boxes_.reserve(facets);
+    edges_.reserve(6 * facets);
+    vertices_.reserve(2 * facets);
+}
+
+OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
+    Solid out;
+    out.facets = facets_.size();
+    out.edges = edges_.size();
+    out.vertices = vertices_.size();
+    out.open_far_out = open_far_out;
+    return out;
+}
+
+OutlinedSolid OutlineStore::view(const Solid& solid, std::size_t end) const {
+    OutlinedSolid out;
+    const std::size_t count = end - solid.facets;
+    out.facets = std::span(facets_).subspan(solid.facets, count);
+    out.boxes = std::span(boxes_).subspan(solid.facets, count);
+    out.edges = edges_;
+    out.vertices = vertices_;
+    out.box = solid.box;
+    out.open_far_out = solid.open_far_out;
+    return out;
+}
+
+OutlineStore::Solid OutlineStore::add_operand(const ManyMeshes& meshes, std::uint32_t slot,
+                                              bool open_far_out) {
+    const LatticeMesh& mesh = meshes.sources[slot]->mesh();
+    const std::uint32_t first = meshes.operands->operands[slot].first;
+    Solid out = empty_solid(open_far_out);
+    const auto vertex = static_cast<std::uint32_t>(out.vertices);
+    const auto edge = static_cast<std::uint32_t>(out.edges);
+    vertices_.resize(out.vertices + mesh.points.size());
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+        vertices_[out.vertices + v].at = {mesh.points[v].doubles(), 0.0};
+    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+        const auto& t = mesh.triangles[f];
+        facets_.push_back({first + f, slot, edge + 3 * f, 3, true});
+        OutlineBox& box = boxes_.emplace_back(OutlineBox::none());
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            edges_.push_back({vertex + t[i], vertex + t[i == 2 ? 0 : i + 1], EdgeOrigin(i)});
+            OutlineVertex& v = vertices_[vertex + t[i]];
+            v.facets[0] = first + f;
+            v.which = static_cast<std::int8_t>(i);
+            box.add(v.at);
+        }
+        out.box.add(box);
+    }
+    return out;
+}
+
+void OutlineStore::cut_off(const Solid& solid) {
+    facets_.resize(solid.facets);
+    boxes_.resize(solid.facets);
+    edges_.resize(solid.edges);
+    vertices_.resize(solid.vertices);
+}
+
+std::pair<OutlineStore, OutlineStore::Solid> OutlineStore::take_out(const Solid& solid) {
+    OutlineStore out;
+    out.facets_.reserve(facets_.size() - solid.facets);
+    out.boxes_.reserve(facets_.size() - solid.facets);
+    out.edges_.reserve(edges_.size() - solid.edges);
+    out.vertices_.reserve(vertices_.size() - solid.vertices);
+    const auto end_of = [](auto& items, std::size_t first) {
+        return std::span(items).subspan(first);
+    };
+    const auto vertex = static_cast<std::uint32_t>(solid.vertices);
+    const auto edge = static_cast<std::uint32_t>(solid.edges);
+    for (const Facet& f : end_of(facets_, solid.facets))
+        out.facets_.push_back({f.number, f.slot, f.first - edge, f.count, f.whole});
+    for (const OutlineBox& b : end_of(boxes_, solid.facets)) out.boxes_.push_back(b);
+    for (const Edge& e : end_of(edges_, solid.edges))
+        out.edges_.push_back({e.from - vertex, e.to - vertex, e.origin});
+    for (const OutlineVertex& v : end_of(vertices_, solid.vertices)) out.vertices_.push_back(v);
+    cut_off(solid);
+    Solid alone = solid;
+    alone.facets = alone.edges = alone.vertices = 0;
+    return {std::move(out), alone};
+}
+
+OutlineStore::Solid OutlineStore::put(const OutlineStore& store, const Solid& solid) {
+    Solid out = empty_solid(solid.open_far_out);
+    out.unused_edges = solid.unused_edges;
+    out.box = solid.box;
+    const auto vertex = static_cast<std::uint32_t>(out.vertices);
+    const auto edge = static_cast<std::uint32_t>(out.edges);
+    for (const Facet& f : store.facets_)
+        facets_.push_back({f.number, f.slot, f.first + edge, f.count, f.whole});
+    boxes_.insert(boxes_.end(), store.boxes_.begin(), store.boxes_.end());
+    for (const Edge& e : store.edges_) edges_.push_back({e.from + vertex, e.to + vertex, e.origin});
+    vertices_.insert(vertices_.end(), store.vertices_.begin(), store.vertices_.end());
+    return out;
+}
+
+OutlineStore::Solid OutlineStore::united_apart(const Solid& first, const Solid& second) const {
+    Solid out = first;
+    out.unused_edges += second.unused_edges;
+    out.box.add(second.box);
+    return out;
+}
+
+OutlineStore::Solid OutlineStore::first_only(const Solid& first, const Solid& second) {
+    cut_off(second);
+    return first;
+}
+
+OutlineStore::Solid OutlineStore::none_of(const Solid& solid) {
+    cut_off(solid);
+    return empty_solid(solid.open_far_out);
+}
+
+OutlineStore::Solid OutlineStore::second_only(const Solid& first, const Solid& second) {
+    const auto move_down = [](auto& items, std::size_t to, std::size_t from) {
+        const auto at = [&](std::size_t i) {
+            return items.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        items.erase(at(to), at(from));
+    };
+    move_down(facets_, first.facets, second.facets);
+    move_down(boxes_, first.facets, second.facets);
+    Solid out = second;
+    out.facets = first.facets;
+    out.edges = first.edges;
+    out.vertices = first.vertices;
+    out.unused_edges += second.edges - first.edges;
+    tidy(out);
+    return out;
+}
+
+const FacetCrossing* OutlineStore::add_line(const FacetCrossing& line) {
+    constexpr std::size_t lines_at_once = 3000;
+    if (lines_.empty() || lines_.back()->size() == lines_at_once) {
+        lines_.push_back(std::make_unique<KeptVector<FacetCrossing>>());
+        lines_.back()->reserve(lines_at_once);
+    }
+    return &lines_.back()->emplace_back(line);
+}
+
+void OutlineStore::tidy(Solid& solid) {
+    if (2 * solid.unused_edges <= edges_.size() - solid.edges) return;
+    constexpr std::uint32_t unused = ~std::uint32_t{0};
+    tidy_edges_.clear();
+    for (std::size_t i = solid.facets; i < facets_.size(); ++i) {
+        Facet& f = facets_[i];
+        const auto own = std::span(edges_).subspan(f.first, f.count);
+        f.first = static_cast<std::uint32_t>(solid.edges + tidy_edges_.size());
+        tidy_edges_.insert(tidy_edges_.end(), own.begin(), own.end());
+    }
+    numbers_.assign(vertices_.size() - solid.vertices, unused);
+    for (const Edge& e : tidy_edges_) numbers_[e.from - solid.vertices] = 0;
+    std::size_t next = solid.vertices;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        if (numbers_[i] == unused) continue;
+        numbers_[i] = static_cast<std::uint32_t>(next);
+        vertices_[next++] = vertices_[solid.vertices + i];
+    }
+    vertices_.resize(next);
+    for (Edge& e : tidy_edges_) {
+        e.from = numbers_[e.from - solid.vertices];
+        e.to = numbers_[e.to - solid.vertices];
+    }
+    edges_.resize(solid.edges);
+    edges_.insert(edges_.end(), tidy_edges_.begin(), tidy_edges_.end());
+    solid.unused_edges = 0;
+}
+
+}  // namespace trisect::detail

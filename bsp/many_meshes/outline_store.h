@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// OutlineStore: outlined solids of one thread, one behind the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/kernel/support/kept_memory.h>
+
+namespace trisect::detail {
+
+/// Solids come and go as on a stack, since a balanced tree is evaluated so: what two of them, the
+/// last ones, have in common takes their place, and most of it lies where it was. Numbers of
+/// vertices and edges are those of the whole store.
+class OutlineStore {
+public:
+    /// Where one begins; it ends where the next one does, or with the store.
+    struct Solid {
+        std::size_t facets = 0;
+        std::size_t edges = 0;
+        std::size_t vertices = 0;
+        std::size_t unused_edges = 0;  ///< those that no facet has
+        OutlineBox box = OutlineBox::none();
+        bool open_far_out = false;
+    };
+    using Facet = OutlinedSolid::Facet;
+    using Edge = OutlinedSolid::Edge;
+
+    /// Room for all operands, where there is none yet.
+    void reserve(const ManyMeshes& meshes);
+
+    [[nodiscard]] Solid empty_solid(bool open_far_out) const;
+    [[nodiscard]] Solid add_operand(const ManyMeshes& meshes, std::uint32_t slot,
+                                    bool open_far_out);
+    [[nodiscard]] OutlinedSolid view(const Solid& solid) const {
+        return view(solid, facets_.size());
+    }
+    /// Of one whose facets end there.
+    [[nodiscard]] OutlinedSolid view(const Solid& solid, std::size_t end) const;
+
+    /// Takes the last solid out, into a store of its own: then it is the only one there.
+    [[nodiscard]] std::pair<OutlineStore, Solid> take_out(const Solid& solid);
+    /// Adds such a one.
+    [[nodiscard]] Solid put(const OutlineStore& store, const Solid& solid);
+
+    // Of the last two solids. One is left.
+    [[nodiscard]] Solid united_apart(const Solid& first, const Solid& second) const;
+    [[nodiscard]] Solid first_only(const Solid& first, const Solid& second);
+    /// Of one that is alone: nothing is left of it.
+    [[nodiscard]] Solid none_of(const Solid& solid);
+    [[nodiscard]] Solid second_only(const Solid& first, const Solid& second);
+
+    // For what makes one of two:
+    [[nodiscard]] KeptVector<Facet>& facets() { return facets_; }
+    [[nodiscard]] KeptVector<OutlineBox>& boxes() { return boxes_; }
+    [[nodiscard]] KeptVector<Edge>& edges() { return edges_; }
+    [[nodiscard]] const Edge& edge(std::size_t i) const { return edges_[i]; }
+    [[nodiscard]] KeptVector<OutlineVertex>& vertices() { return vertices_; }
+    /// A line that edges may lie in; it stays where it is, also when solids are taken out.
+    [[nodiscard]] const FacetCrossing* add_line(const FacetCrossing& line);
+    /// Takes out edges that no facet has, and vertices that no edge has, where they are many. Their
+    /// order stays. \pre the last solid
+    void tidy(Solid& solid);
+
+    using Lines = std::vector<std::unique_ptr<KeptVector<FacetCrossing>>>;
+    /// All of them.
+    [[nodiscard]] Lines take_lines() { return std::move(lines_); }
+
+private:
+    void cut_off(const Solid& solid);
+
+    KeptVector<Facet> facets_;
+    KeptVector<OutlineBox> boxes_;
+    KeptVector<Edge> edges_;
+    KeptVector<OutlineVertex> vertices_;
+    Lines lines_;
+    KeptVector<Edge> tidy_edges_;
+    KeptVector<std::uint32_t> numbers_;  // of vertices, when they are tidied up
+};
+
+}  // namespace trisect::detail
