@@ -265,10 +265,18 @@ void CommonPart::Steps::list_vertices(std::size_t solid) {
     sides_.start_list();
     for (const std::uint32_t f : near_[solid]) {
         const OutlinedSolid::Facet& facet = s.facets[f];
-        const std::uint32_t end = facet.first + facet.count;
-        for (std::uint32_t e = facet.first; e < end; ++e) sides_.list(s.edges[e].from);
-        for (std::uint32_t e = facet.first; e < end; ++e)
-            if (!stops_.has(e)) sides_.join(s.edges[e].from, s.edges[e].to);
+        const std::uint32_t last = facet.first + facet.count - 1;
+        for (std::uint32_t e = facet.first; e <= last; ++e) sides_.list(s.edges[e].from);
+        bool is_pierced = !facet.whole;  // then it may have several outlines
+        for (std::uint32_t e = facet.first; e < last; ++e) {
+            if (stops_.has(e)) {
+                is_pierced = true;
+            } else {
+                sides_.join(s.edges[e].from, s.edges[e].to);
+            }
+        }
+        // Else it has joined all.
+        if (is_pierced && !stops_.has(last)) sides_.join(s.edges[last].from, s.edges[last].to);
     }
 }
 

@@ -632,6 +632,12 @@ UndividedMeshes form_of(OutlineStore& store, const ManyMeshes& meshes, const Cro
     sort_facets(store.facets());
     const OutlinedSolid solid = store.view({});
     reserve(*outlined, solid);
+    // Lines lie anywhere in memory.
+    constexpr std::size_t ahead = 12;
+    const auto look_ahead = [&](std::size_t e) {
+        if (e + ahead < solid.edges.size())
+            __builtin_prefetch(solid.edges[e + ahead].origin.line());
+    };
     for (const OutlinedSolid::Facet& f : solid.facets) {
         if (f.whole) {
             out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
@@ -639,7 +645,9 @@ UndividedMeshes form_of(OutlineStore& store, const ManyMeshes& meshes, const Cro
         }
         outlined->facets.push_back(
             {f.number, static_cast<std::uint32_t>(outlined->edges.size()), f.count});
+        std::size_t number = f.first;
         for (const OutlinedSolid::Edge& e : solid.edges_of(f)) {
+            look_ahead(number++);
             const FacetCrossing* line = e.origin.line();
             const std::uint32_t cutter =
                 line == nullptr ? 0 : line->facets[line->facets[0] == f.number ? 1 : 0];

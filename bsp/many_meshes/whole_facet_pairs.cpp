@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include <trisect/kernel/number/vector3.h>
 
@@ -42,7 +41,8 @@ void WholeFacetPairs::start(std::size_t count, const Vector3& near) {
     pairs_.clear();
     crossings_.clear();
     doubtful_.clear();
-    box_pairs_ = 0;
+    box_pairs_.clear();
+    box_pair_count_ = 0;
 }
 
 void WholeFacetPairs::add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box) {
@@ -58,56 +58,81 @@ void WholeFacetPairs::add(std::uint32_t slot, std::uint32_t number, const Outlin
 }
 
 bool WholeFacetPairs::find() {
-    boxes_.add_hulls();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vector3 low{infinity, infinity, infinity};
-    Vector3 high{-infinity, -infinity, -infinity};
-    for (const Facet& f : facets_)
-        for (const Vector3& c : f.corners)
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], c[k]);
-                high[k] = std::max(high[k], c[k]);
-            }
-    Vector3 extent;
-    for (std::size_t k = 0; k < 3; ++k) {
-        extent[k] = (std::max(high[k], near_[k]) - std::min(low[k], near_[k])) * slightly_more;
-        if (!(extent[k] < widest_extent)) return false;
-    }
-    make_planes(extent);
-    for (std::size_t i = 0; i < probes_.size(); ++i) compare(i);
+    list_box_pairs();
+    if (box_pairs_.empty()) return true;
+    if (!make_planes()) return false;
+    compare_planes();
     relate_listed();
     return true;
 }
 
-void WholeFacetPairs::make_planes(const Vector3& extent) {
-    planes_.start(extent);
-    for (Facet& f : facets_) {
-        f.plane = FilteredFacets::plane_of(f.corners, extent);
-        FilteredPlane plane = f.plane;
-        std::array<Vector3, 3> corners;
-        for (std::size_t i = 0; i < 3; ++i) corners[i] = minus(f.corners[i], near_);
-        plane.origin = corners[0];
-        planes_.add(corners, plane);
+void WholeFacetPairs::list_box_pairs() {
+    boxes_.add_hulls();
+    has_partner_.assign(std::max(4 * boxes_.row_count(), facets_.size()), 0);
+    for (std::size_t i = 0; i < probes_.size(); ++i) {
+        const std::size_t before = box_pairs_.size();
+        static_cast<void>(boxes_.visit_meeting(0, probes_[i], [&](std::size_t row, unsigned met) {
+            box_pairs_.push_back(
+                {static_cast<std::uint32_t>(second_ + i), static_cast<std::uint32_t>(row), met});
+            return true;
+        }));
+        for (std::size_t k = before; k < box_pairs_.size(); ++k) {
+            box_pair_count_ += boxes_met[box_pairs_[k].met];
+            for (unsigned met = box_pairs_[k].met; met != 0; met &= met - 1)
+                has_partner_[4 * box_pairs_[k].row +
+                             static_cast<std::size_t>(std::countr_zero(met))] = 1;
+        }
+        if (box_pairs_.size() > before) has_partner_[second_ + i] = 1;
     }
 }
 
-void WholeFacetPairs::compare(std::size_t first) {
-    const std::size_t i = second_ + first;
-    FacetRows::Probe facet;
-    bool has_facet = false;
-    static_cast<void>(boxes_.visit_meeting(0, probes_[first], [&](std::size_t row, unsigned met) {
-        if (!has_facet) facet = planes_.probe(i);
-        has_facet = true;
-        box_pairs_ += boxes_met[met];
-        for (met &= ~planes_.parted(row, facet, met); met != 0; met &= met - 1) {
-            const std::size_t j = 4 * row + static_cast<std::size_t>(std::countr_zero(met));
-            if (known_planes_.empty() || known_planes_[i] == 0 ||
-                known_planes_[i] != known_planes_[j])
-                pairs_.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
+// Of those that have a partner. False where they are too far apart.
+bool WholeFacetPairs::make_planes() {
+    Vector3 low = near_;
+    Vector3 high = near_;
+    for (std::size_t i = 0; i < facets_.size(); ++i)
+        for (std::size_t c = 0; c < 3 && has_partner_[i] != 0; ++c)
+            for (std::size_t k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], facets_[i].corners[c][k]);
+                high[k] = std::max(high[k], facets_[i].corners[c][k]);
+            }
+    Vector3 extent;
+    for (std::size_t k = 0; k < 3; ++k) {
+        extent[k] = (high[k] - low[k]) * slightly_more;
+        if (!(extent[k] < widest_extent)) return false;
+    }
+    planes_.start(extent);
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+        if (has_partner_[i] == 0) {
+            planes_.skip();
+            continue;
         }
-        return true;
-    }));
-    if (pairs_.size() >= pairs_at_once) relate_listed();
+        Facet& f = facets_[i];
+        f.plane = FilteredFacets::plane_of(f.corners, extent);
+        FilteredPlane plane = f.plane;
+        std::array<Vector3, 3> corners;
+        for (std::size_t c = 0; c < 3; ++c) corners[c] = minus(f.corners[c], near_);
+        plane.origin = corners[0];
+        planes_.add(corners, plane);
+    }
+    return true;
+}
+
+void WholeFacetPairs::compare_planes() {
+    FacetRows::Probe facet;
+    std::size_t probed = facets_.size();
+    for (const BoxPairs& b : box_pairs_) {
+        const std::size_t i = b.first;
+        if (i != probed) facet = planes_.probe(i);
+        probed = i;
+        const std::uint32_t plane = known_planes_.empty() ? 0 : known_planes_[i];
+        for (unsigned met = b.met & ~planes_.parted(b.row, facet, b.met); met != 0;
+             met &= met - 1) {
+            const std::uint32_t j = 4 * b.row + static_cast<std::uint32_t>(std::countr_zero(met));
+            if (plane == 0 || plane != known_planes_[j]) pairs_.push_back({b.first, j});
+        }
+        if (pairs_.size() >= pairs_at_once) relate_listed();
+    }
 }
 
 // Four at once: single precision is enough for nearly all of them.

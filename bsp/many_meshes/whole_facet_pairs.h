@@ -44,15 +44,16 @@ public:
     /// Pairs that doubles leave open.
     [[nodiscard]] std::span<const Places> doubtful() const { return doubtful_; }
     /// Of which boxes meet.
-    [[nodiscard]] std::size_t box_pairs() const { return box_pairs_; }
+    [[nodiscard]] std::size_t box_pairs() const { return box_pair_count_; }
 
 private:
     struct Facet {
         std::array<Vector3, 3> corners;
         FilteredPlane plane;
     };
-    void make_planes(const Vector3& extent);
-    void compare(std::size_t first);
+    void list_box_pairs();
+    [[nodiscard]] bool make_planes();
+    void compare_planes();
     void relate_listed();
     void relate(const FacetRows::Pair& pair);
     void keep(const FacetRows::Pair& pair, const TriangleRelation& relation);
@@ -71,10 +72,18 @@ private:
     std::vector<BoxRows::Probe> probes_;  // of the first one
     FacetRows planes_;
     std::span<const std::uint32_t> known_planes_;
-    std::vector<FacetRows::Pair> pairs_;  // that planes do not part, not yet related
+    // A facet of the first list with four of the second one, of which some boxes meet.
+    struct BoxPairs {
+        std::uint32_t first = 0;
+        std::uint32_t row = 0;
+        unsigned met = 0;
+    };
+    std::vector<BoxPairs> box_pairs_;
+    std::vector<std::uint8_t> has_partner_;  // by place
+    std::vector<FacetRows::Pair> pairs_;     // that planes do not part, not yet related
     std::vector<Crossing> crossings_;
     std::vector<Places> doubtful_;
-    std::size_t box_pairs_ = 0;
+    std::size_t box_pair_count_ = 0;
 };
 
 }  // namespace trisect::detail

@@ -20,6 +20,11 @@ public:
     /// For a leaf whose points differ by no more than this, see FilteredFacets::extent().
     void start(const Vector3& extent);
     void add(const std::array<Vector3, 3>& corners, const FilteredPlane& plane);
+    /// A place for a facet that is never looked at.
+    void skip() {
+        if (size_++ % 4 == 0) rows_.emplace_back();
+        singles_.emplace_back();
+    }
 
     using Four = std::array<float, 4>;
     /// A facet to be compared with the others: every number four times.
