@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include <trisect/kernel/predicates.h>
-#include <trisect/kernel/support/kept_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -39,9 +39,9 @@ struct OutlinedFacets {
         std::uint32_t first = 0;  ///< of its edges, which follow each other in no order
         std::uint32_t count = 0;
     };
-    KeptVector<OutlineVertex> vertices;
-    KeptVector<Edge> edges;
-    KeptVector<Facet> facets;  ///< ascending
+    PoolVector<OutlineVertex> vertices;
+    PoolVector<Edge> edges;
+    PoolVector<Facet> facets;  ///< ascending
 };
 
 }  // namespace trisect::detail

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include <trisect/kernel/support/kept_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -64,11 +64,11 @@ public:
     [[nodiscard]] bool has(std::uint32_t key) const { return place_[key] != 0; }
 
 private:
-    KeptVector<std::uint32_t> keys_;
-    KeptVector<Item> added_;
-    KeptVector<Bucket> buckets_;
-    KeptVector<std::uint32_t> place_;  // among these, from 1 on; 0 where a number has none
-    KeptVector<Item> items_;
+    PoolVector<std::uint32_t> keys_;
+    PoolVector<Item> added_;
+    PoolVector<Bucket> buckets_;
+    PoolVector<std::uint32_t> place_;  // among these, from 1 on; 0 where a number has none
+    PoolVector<Item> items_;
 };
 
 }  // namespace trisect::detail

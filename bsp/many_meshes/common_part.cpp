@@ -133,13 +133,13 @@ private:
     std::array<std::size_t, 3> edges_{};   // of their edges
     CrossedFacetsFinder finder_;
     CommonSegments segments_;
-    KeptVector<OutlineVertex> made_;
+    PoolVector<OutlineVertex> made_;
     FlatMap made_by_name_;
     Buckets<Stop> stops_;                             // by edge
     std::array<std::vector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
     std::array<Buckets<Cut>, 2> cuts_;                // by place
     VertexSides sides_;  // of vertices of facets that are near: of the other solid
-    KeptVector<std::uint32_t> kept_made_;
+    PoolVector<std::uint32_t> kept_made_;
 };
 
 void CommonPart::Steps::start(const Solid& first, const Solid& second) {
@@ -376,7 +376,7 @@ bool CommonPart::Steps::is_all_open(const Facet& f) const {
 // The first of them.
 std::uint32_t CommonPart::Steps::add_edges_of_cut(std::size_t solid, std::uint32_t place,
                                                   const Facet& facet) {
-    KeptVector<OutlinedSolid::Edge>& edges = store_.edges();
+    PoolVector<OutlinedSolid::Edge>& edges = store_.edges();
     const auto first = static_cast<std::uint32_t>(edges.size());
     for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
         const OutlinedSolid::Edge edge = edges[e];
@@ -412,8 +412,8 @@ bool CommonPart::Steps::keep_near(std::size_t solid, std::uint32_t place, Solid&
 
 // Facets move to the front.
 void CommonPart::Steps::keep_parts(std::size_t solid, Solid& out, std::size_t& kept) {
-    KeptVector<Facet>& facets = store_.facets();
-    KeptVector<OutlineBox>& boxes = store_.boxes();
+    PoolVector<Facet>& facets = store_.facets();
+    PoolVector<OutlineBox>& boxes = store_.boxes();
     const bool is_far_kept = is_far_open(solid);
     auto near = near_[solid].begin();
     for (std::size_t i = firsts_[solid]; i < firsts_[solid + 1]; ++i) {

@@ -34,7 +34,7 @@ void CommonSegments::start(const OutlinedSolid& first, const OutlinedSolid& seco
 FilteredPlane CommonSegments::plane(std::size_t solid, std::uint32_t place) {
     MadePlane& made = plane_of_[solid][place];
     if (made.turn == turn_) return planes_[made.number];
-    made = {turn_, planes_.size()};
+    made = {turn_, static_cast<std::uint32_t>(planes_.size())};
     const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
     const std::uint32_t facet = f.number - meshes_.operands->operands[f.slot].first;
     planes_.push_back(FilteredFacets::plane_of(meshes_.corners(f.slot, facet), meshes_.extent));

@@ -12,7 +12,7 @@
 #include <trisect/bsp/many_meshes/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
 #include <trisect/kernel/support/flat_map.h>
-#include <trisect/kernel/support/kept_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -78,12 +78,12 @@ private:
     const ShiftedPoints& exact_;
     std::array<const OutlinedSolid*, 2> solids_{};
     struct MadePlane {
-        std::uint64_t turn = 0;  // of the solids for which it was made last
-        std::size_t number = 0;
+        std::uint32_t turn = 0;  // of the solids for which it was made last
+        std::uint32_t number = 0;
     };
-    std::array<KeptVector<MadePlane>, 2> plane_of_;  // by place
-    std::uint64_t turn_ = 0;
-    KeptVector<FilteredPlane> planes_;
+    std::array<PoolVector<MadePlane>, 2> plane_of_;  // by place
+    std::uint32_t turn_ = 0;
+    PoolVector<FilteredPlane> planes_;
     FlatMap sides_;  // of vertices that doubles leave open, and whether moves decided them
     std::vector<CommonSegment> segments_;
     // Of one crossing:

@@ -14,7 +14,7 @@
 #include <trisect/bsp/many_meshes/special_pairs.h>
 #include <trisect/bsp/many_meshes/whole_facet_pairs.h>
 #include <trisect/kernel/support/flat_map.h>
-#include <trisect/kernel/support/kept_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -76,7 +76,7 @@ private:
     const EvaluateSettings& options_;
     SpecialPairs special_;
     std::array<const OutlinedSolid*, 2> solids_{};
-    KeptVector<CrossedFacets> found_;
+    PoolVector<CrossedFacets> found_;
     FlatMap known_;  // those that were found, where there are several cells
     EvaluateStats* stats_ = nullptr;
     WholeFacetPairs pairs_;

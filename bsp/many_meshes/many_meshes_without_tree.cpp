@@ -589,7 +589,7 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
 }
 
 // Groups of operands leave them in an order of their own.
-void sort_facets(KeptVector<OutlinedSolid::Facet>& facets) {
+void sort_facets(PoolVector<OutlinedSolid::Facet>& facets) {
     if (!std::ranges::is_sorted(facets, {}, &OutlinedSolid::Facet::number))
         std::ranges::sort(facets, {}, &OutlinedSolid::Facet::number);
 }
@@ -597,7 +597,7 @@ void sort_facets(KeptVector<OutlinedSolid::Facet>& facets) {
 // For parts of facets, and those of their vertices that are wanted: most are of whole ones.
 void take_vertices(OutlinedFacets& outlined, const OutlinedSolid& solid) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
-    KeptVector<std::uint32_t> numbers(solid.vertices.size(), unused);
+    PoolVector<std::uint32_t> numbers(solid.vertices.size(), unused);
     for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
     std::uint32_t next = 0;
     for (std::uint32_t& n : numbers)

@@ -7,12 +7,9 @@
 namespace trisect::detail {
 
 void OutlineStore::reserve(const ManyMeshes& meshes) {
-    // Facets that are cut get more edges and vertices.
     const std::size_t facets = meshes.facet_count();
     facets_.reserve(facets);
     boxes_.reserve(facets);
-    edges_.reserve(6 * facets);
-    vertices_.reserve(2 * facets);
 }
 
 OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
@@ -144,7 +141,7 @@ OutlineStore::Solid OutlineStore::second_only(const Solid& first, const Solid& s
 const FacetCrossing* OutlineStore::add_line(const FacetCrossing& line) {
     constexpr std::size_t lines_at_once = 3000;
     if (lines_.empty() || lines_.back()->size() == lines_at_once) {
-        lines_.push_back(std::make_unique<KeptVector<FacetCrossing>>());
+        lines_.push_back(std::make_unique<PoolVector<FacetCrossing>>());
         lines_.back()->reserve(lines_at_once);
     }
     return &lines_.back()->emplace_back(line);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/many_meshes/outlined_solid.h>
-#include <trisect/kernel/support/kept_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -56,31 +56,31 @@ public:
     [[nodiscard]] Solid second_only(const Solid& first, const Solid& second);
 
     // For what makes one of two:
-    [[nodiscard]] KeptVector<Facet>& facets() { return facets_; }
-    [[nodiscard]] KeptVector<OutlineBox>& boxes() { return boxes_; }
-    [[nodiscard]] KeptVector<Edge>& edges() { return edges_; }
+    [[nodiscard]] PoolVector<Facet>& facets() { return facets_; }
+    [[nodiscard]] PoolVector<OutlineBox>& boxes() { return boxes_; }
+    [[nodiscard]] PoolVector<Edge>& edges() { return edges_; }
     [[nodiscard]] const Edge& edge(std::size_t i) const { return edges_[i]; }
-    [[nodiscard]] KeptVector<OutlineVertex>& vertices() { return vertices_; }
+    [[nodiscard]] PoolVector<OutlineVertex>& vertices() { return vertices_; }
     /// A line that edges may lie in; it stays where it is, also when solids are taken out.
     [[nodiscard]] const FacetCrossing* add_line(const FacetCrossing& line);
     /// Takes out edges that no facet has, and vertices that no edge has, where they are many. Their
     /// order stays. \pre the last solid
     void tidy(Solid& solid);
 
-    using Lines = std::vector<std::unique_ptr<KeptVector<FacetCrossing>>>;
+    using Lines = std::vector<std::unique_ptr<PoolVector<FacetCrossing>>>;
     /// All of them.
     [[nodiscard]] Lines take_lines() { return std::move(lines_); }
 
 private:
     void cut_off(const Solid& solid);
 
-    KeptVector<Facet> facets_;
-    KeptVector<OutlineBox> boxes_;
-    KeptVector<Edge> edges_;
-    KeptVector<OutlineVertex> vertices_;
+    PoolVector<Facet> facets_;
+    PoolVector<OutlineBox> boxes_;
+    PoolVector<Edge> edges_;
+    PoolVector<OutlineVertex> vertices_;
     Lines lines_;
-    KeptVector<Edge> tidy_edges_;
-    KeptVector<std::uint32_t> numbers_;  // of vertices, when they are tidied up
+    PoolVector<Edge> tidy_edges_;
+    PoolVector<std::uint32_t> numbers_;  // of vertices, when they are tidied up
 };
 
 }  // namespace trisect::detail

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <trisect/kernel/support/kept_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -60,13 +60,13 @@ public:
 
 private:
     struct Mark {
-        std::uint64_t turn = 0;  // in which it was listed last
+        std::uint32_t turn = 0;  // in which it was listed last
         std::uint32_t parent = 0;
         Side side = Side::Unknown;
     };
-    KeptVector<Mark> marks_;  // by vertex
+    PoolVector<Mark> marks_;  // by vertex
     std::vector<std::uint32_t> listed_;
-    std::uint64_t turn_ = 0;
+    std::uint32_t turn_ = 0;
 };
 
 }  // namespace trisect::detail
