@@ -50,8 +50,26 @@ bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
     return std::ranges::all_of(solids, [](const auto& s) {
         const Source* const mesh = only_mesh_of(*s);
         return mesh != nullptr && lies_outside(s->root().node->reference(), mesh->box()) &&
-               PrismFacets::may_be_of_prism({mesh, nullptr, 0, false, false});
+               PrismFacets::may_be_of_wall({mesh, nullptr, 0, false, false});
     });
+}
+
+// A few facets stand for all.
+bool are_large_prisms_in_reach(const Residual::Ref& formula, const SolidStates& solids,
+                               const EvaluateSettings& options) {
+    constexpr std::size_t samples = 64;
+    if (solids.size() != 2 || !are_large_prisms(formula, solids, options)) return false;
+    const Source* const first = only_mesh_of(*solids[0]);
+    const Source* const second = only_mesh_of(*solids[1]);
+    const bool is_first = first->facet_count() >= second->facet_count();
+    const Source& larger = is_first ? *first : *second;
+    const Box& reach = (is_first ? second : first)->box();
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < samples; ++i) {
+        const std::size_t facet = i * larger.facet_count() / samples;
+        if (larger.facet_box(static_cast<std::uint32_t>(facet)).overlaps(reach)) ++near;
+    }
+    return 2 * near >= samples;
 }
 
 std::optional<SolidForm> outline_prisms(const Residual::Ref& formula, const SolidStates& solids,

@@ -249,6 +249,126 @@ TEST(Prisms, OutlinesOfPlatesWithPockets) {
     EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7);
 }
 
+// --- Side faces of any facets.
+
+// The same solid in units of a half: edges are divided in the middle as a number says for them, so
+// that facets on both sides fit, and facets along with them.
+Operand with_divided_edges(const Operand& operand, std::uint64_t salt) {
+    const auto twice = [](reference::LatticePoint p) {
+        for (std::int64_t& c : p) c *= 2;
+        return p;
+    };
+    const auto middle = [](const reference::LatticePoint& a, const reference::LatticePoint& b) {
+        reference::LatticePoint out = a;
+        for (std::size_t k = 0; k < 3; ++k) out[k] += b[k];
+        return out;
+    };
+    const auto is_divided = [&](const reference::LatticePoint& a,
+                                const reference::LatticePoint& b) {
+        const auto m = middle(a, b);
+        std::uint64_t key = salt;
+        for (const std::int64_t c : m) key = 1000003 * key + static_cast<std::uint64_t>(c + 4096);
+        return reference::Random(key).below(3) != 0;
+    };
+    Operand out;
+    for (const auto& t : operand) {
+        std::vector<reference::LatticePoint> ring;
+        std::size_t divided = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            ring.push_back(twice(t[i]));
+            if (!is_divided(t[i], t[(i + 1) % 3])) continue;
+            ring.push_back(middle(t[i], t[(i + 1) % 3]));
+            ++divided;
+        }
+        // Corners whose neighbours are both middles are cut off; what is left is convex, and no
+        // corner of it is between others on one line but next to one that was divided.
+        const std::size_t n = ring.size();
+        if (divided == 3) {
+            for (std::size_t i = 0; i < 6; i += 2)
+                out.push_back({ring[i], ring[i + 1], ring[(i + 5) % 6]});
+            out.push_back({ring[1], ring[3], ring[5]});
+        } else if (divided == 0) {
+            out.push_back({ring[0], ring[1], ring[2]});
+        } else {
+            // A fan from a middle.
+            std::size_t m = 0;
+            while (!(ring[m] != twice(t[0]) && ring[m] != twice(t[1]) && ring[m] != twice(t[2])))
+                ++m;
+            for (std::size_t i = 1; i + 1 < n; ++i)
+                out.push_back({ring[m], ring[(m + i) % n], ring[(m + i + 1) % n]});
+        }
+    }
+    return out;
+}
+
+Operand in_halves(Operand operand) {
+    for (auto& t : operand)
+        for (auto& p : t)
+            for (std::int64_t& c : p) c *= 2;
+    return operand;
+}
+
+// Every operand, or some of them.
+std::vector<Operand> with_divided_edges(const std::vector<Operand>& operands, std::uint64_t seed) {
+    std::vector<Operand> out;
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+        const bool divided = seed % 2 == 0 || i % 2 == seed / 2 % 2;
+        out.push_back(divided ? with_divided_edges(operands[i], 100 * seed + i)
+                              : in_halves(operands[i]));
+        out.back() = divided && seed % 5 != 0 ? with_divided_edges(out.back(), 100 * seed + i + 50)
+                                              : in_halves(out.back());
+    }
+    return out;
+}
+
+TEST(PrismsOfAnyFacets, OutlinesOfPairsAlongEveryAxis) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+        reference::Random random(seed + 510000);
+        std::vector<Operand> operands =
+            with_divided_edges({random_prism(random), random_prism(random)}, seed);
+        for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
+        for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor}) {
+            SCOPED_TRACE("seed " + std::to_string(seed));
+            expect_same_outlines(operands, reference::pair_expression(kind), leaves);
+        }
+    }
+    EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5);
+}
+
+TEST(PrismsOfAnyFacets, OutlinesOfPlatesWithPockets) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 520000);
+        std::vector<Operand> operands = with_divided_edges(plate_with_pockets(random), seed);
+        auto expression = reference::random_expression(random, operands.size(), operands.size());
+        if (operands.size() == 2)
+            expression = reference::pair_expression(seed % 2 == 0 ? Kind::Difference : Kind::Union);
+        for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
+        expect_same_outlines(operands, expression, leaves);
+    }
+    EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7);
+}
+
+// Walls that are no rectangles, and steps, go other ways.
+TEST(PrismsOfAnyFacets, StepsInWalls) {
+    Leaves leaves;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        reference::Random random(seed + 530000);
+        const Operand step =
+            reference::prism({{0, 0}, {20, 0}, {20, 8}, {9, 8}, {9, 17}, {0, 17}}, -9, 30);
+        // The steps are along another axis than those of the others.
+        const Operand turned = reference::axes_rotated(step, 1 + seed % 2);
+        const std::vector<Operand> operands =
+            with_divided_edges({turned, random_prism(random), random_prism(random)}, seed);
+        expect_same_outlines(operands, reference::random_expression(random, 3, 3), leaves);
+    }
+}
+
+// --- Other formulas.
+
 TEST(Prisms, FormulasOverSeveral) {
     Leaves leaves;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {

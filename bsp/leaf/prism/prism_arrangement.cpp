@@ -41,7 +41,7 @@ std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& pr
     EvaluateStats& stats = findings.stats;
     cap_edges_.clear();
     outlines_ = {};
-    if (!facets_.list(problem) || !crossings_.find(problem, facets_.side_faces(), stats))
+    if (!facets_.list(problem, true) || !crossings_.find(problem, facets_.side_faces(), stats))
         return std::nullopt;
     if (may_have_straight_crossings(problem) && crossings_.any_coincide()) return std::nullopt;
     if (!has_few_layers() || !components_.list(problem, facets_)) return std::nullopt;
@@ -286,7 +286,7 @@ std::array<int, 2> PrismArrangement::bounds(std::span<const Inside> layers, std:
 void PrismArrangement::judge_side_face(LeafIndex i) {
     const SideFaceState state = state_of(i);
     faces_here_ = {-1, -1};
-    add_whole_halves(side_face(i), state);
+    add_whole(side_face(i), state);
     add_horizontal_edges(i, state);
     if (state.outlined == both_halves) {
         add_vertical_edges(i, state);
@@ -303,6 +303,11 @@ PrismArrangement::SideFaceState PrismArrangement::state_of(LeafIndex i) const {
         for (const Inside& in : interval(s).subspan(1, layers_here_ - 2))
             if (facing(in) != out.facing) return {0, both_halves, Facing::None};
     if (out.facing == Facing::None) return out;
+    if (w.wall >= 0) {
+        const bool unbroken = is_unbroken(0) && is_unbroken(layers_here_ - 2);
+        (unbroken ? out.whole : out.outlined) = both_halves;
+        return out;
+    }
     for (std::size_t half = 0; half < 2; ++half)
         (is_unbroken(is_low(w, half) ? 0 : layers_here_ - 2) ? out.whole : out.outlined) |= 1U
                                                                                             << half;
@@ -312,7 +317,7 @@ PrismArrangement::SideFaceState PrismArrangement::state_of(LeafIndex i) const {
 // Whether a half of a side face has its edge perpendicular to the axis at the lower end.
 bool PrismArrangement::is_low(const PrismSideFace& w, std::size_t half) const {
     const PolygonRef& f = w.facets[half];
-    const int third = (facets_.upright_edge(w, half).edge + 2) % 3;
+    const int third = (w.upright[half].edge + 2) % 3;
     return f.source->corner(f.facet, third)[static_cast<int>(facets_.axis())] == w.lo;
 }
 
@@ -327,6 +332,15 @@ bool PrismArrangement::is_same_beside(std::size_t position, std::size_t s, std::
     return std::ranges::equal(interval(s).subspan(position, 2), interval(t).subspan(position, 2));
 }
 
+void PrismArrangement::add_whole(const PrismSideFace& w, const SideFaceState& state) {
+    if (w.wall < 0) return add_whole_halves(w, state);
+    if (state.whole == 0) return;
+    for (PolygonRef ref : facets_.walls().facets(w.wall)) {
+        ref.flipped = (state.facing == Facing::InsideLeft) == w.above_is_left[0];
+        out_.push_back(ref);
+    }
+}
+
 void PrismArrangement::add_whole_halves(const PrismSideFace& w, const SideFaceState& state) {
     for (std::size_t half = 0; half < 2; ++half) {
         if ((state.whole >> half & 1U) == 0) continue;
@@ -334,6 +348,26 @@ void PrismArrangement::add_whole_halves(const PrismSideFace& w, const SideFaceSt
         ref.flipped = (state.facing == Facing::InsideLeft) == w.above_is_left[half];
         out_.push_back(ref);
     }
+}
+
+// The parts of an edge between the corners in between_. `turned`: from its end to its beginning.
+template <class Out>
+void PrismArrangement::divide(const PrismSideFace& w, NamedOutlines::Edge edge, bool turned,
+                              const Out& out) const {
+    if (between_.empty()) {
+        if (turned) std::swap(edge.from, edge.to);
+        return out(edge);
+    }
+    const NamedOutlines::Vertex end = edge.to;
+    const auto add = [&](const NamedOutlines::Vertex& to) {
+        edge.to = to;
+        NamedOutlines::Edge part = edge;
+        if (turned) std::swap(part.from, part.to);
+        out(part);
+        edge.from = to;
+    };
+    for (const PrismCorner& c : between_) add(vertex_of(w, c));
+    add(end);
 }
 
 void PrismArrangement::add_horizontal_edges(LeafIndex i, const SideFaceState& state) {
@@ -381,11 +415,12 @@ void PrismArrangement::add_cap_edges(LeafIndex i, std::size_t p, std::size_t s, 
         for (std::size_t end = 0; end < 2; ++end)
             if (p == (end == 0 ? 0 : layers_here_ - 2) && cap_is_left_[end] == left)
                 out.component = components_.of_side_face(i)[end];
-        out.edge.from = vertex(i, begins_[s], position);
-        out.edge.to = vertex(i, end_of_interval(t - 1), position);
-        if (left != up) std::swap(out.edge.from, out.edge.to);
-        out.edge.line = {support_of(i), left == w.above_is_left[0]};
-        out.edge.face = static_cast<std::uint32_t>(2 * position + (up ? 1 : 0));
+        out.side_face = i;
+        out.from = begins_[s];
+        out.to = end_of_interval(t - 1);
+        out.face = static_cast<std::uint32_t>(2 * position + (up ? 1 : 0));
+        out.left = left;
+        out.all = is_all_at_end(p, s, t);
         cap_edges_.push_back(out);
     }
 }
@@ -405,10 +440,12 @@ void PrismArrangement::add_side_face_edges(LeafIndex i, std::size_t p, std::size
         NamedOutlines::Edge e;
         e.from = vertex(i, begins_[s], position);
         e.to = vertex(i, end_of_interval(t - 1), position);
-        if ((f == Facing::InsideLeft) != is_above) std::swap(e.from, e.to);
         e.line = {plane_at(position), is_above == upper_is_above};
         e.face = face_of_side_face(i, f, state);
-        outlines_.edges.push_back(e);
+        between_.clear();
+        if (is_all_at_end(p, s, t)) add_corners_between(i, position);
+        divide(side_face(i), e, (f == Facing::InsideLeft) != is_above,
+               [&](const NamedOutlines::Edge& part) { outlines_.edges.push_back(part); });
     }
 }
 
@@ -435,10 +472,11 @@ void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_
     NamedOutlines::Edge e;
     e.from = vertex(i, b, below + first);
     e.to = vertex(i, b, below + end);
-    if ((f == Facing::InsideLeft) == begins) std::swap(e.from, e.to);
     e.line = side_of_bound(i, b, begins);
     e.face = face_of_side_face(i, f, state);
-    outlines_.edges.push_back(e);
+    add_corners_upright(i, b, below + first, below + end);
+    divide(side_face(i), e, (f == Facing::InsideLeft) == begins,
+           [&](const NamedOutlines::Edge& part) { outlines_.edges.push_back(part); });
 }
 
 // One half of a side face that bounds the result as a whole: vertices lie in the edge that it ends
@@ -451,7 +489,7 @@ void PrismArrangement::add_half(LeafIndex i, const SideFaceState& state) {
     // From corner (k + 1) to corner (k + 2) or from there to corner k, the upright edge being from
     // corner k to the next one.
     const PolygonRef& f = w.facets[half];
-    const PrismFacets::Upright upright = facets_.upright_edge(w, half);
+    const UprightEdge& upright = w.upright[half];
     const bool third_is_low = is_low(w, half);
     const bool first_is_low = upright.edge == upright.low;
     const int k = first_is_low == third_is_low ? upright.edge + 1 : upright.edge + 2;
@@ -464,12 +502,49 @@ void PrismArrangement::add_half(LeafIndex i, const SideFaceState& state) {
     outlines_.edges.push_back(e);
 }
 
+// --- Corners of walls.
+//
+// Where a wall passes through as it is, all corners of its facets are vertices, and what is
+// outlined beside it has them in its edges. Where nothing beside it is whole, assembly takes them
+// out again.
+
+void PrismArrangement::add_corners_between(LeafIndex i, std::size_t position) {
+    const PrismSideFace& w = side_face(i);
+    if (w.wall < 0) return;
+    const bool is_low = position + 1 == w.first_layer;
+    const auto side = facets_.walls().side(w.wall, is_low ? PrismWalls::Bottom : PrismWalls::Top);
+    between_.assign(side.begin() + 1, side.end() - 1);
+}
+
+// Between two positions.
+void PrismArrangement::add_corners_upright(LeafIndex i, Bound b, std::size_t below,
+                                           std::size_t above) {
+    between_.clear();
+    const PrismSideFace& w = side_face(i);
+    if (w.wall < 0 || b >= 0) return;
+    for (const PrismCorner& c :
+         facets_.walls().side(w.wall, b == at_from ? PrismWalls::AtFrom : PrismWalls::AtTo))
+        if (height_of(w, c) > facets_.positions()[below] &&
+            height_of(w, c) < facets_.positions()[above])
+            between_.push_back(c);
+}
+
+std::uint32_t PrismArrangement::face_of_wall(const PrismSideFace& w, bool left) {
+    const Source* const source = w.facets[0].source;
+    const std::uint32_t facet = facets_.walls().first_facet(w.wall);
+    outlines_.faces.push_back({source, facet, left == w.above_is_left[0]});
+    if (facets_.walls().has_several_faces(w.wall))
+        outlines_.first_facets.push_back({source, facet, false});
+    return static_cast<std::uint32_t>(outlines_.faces.size() - 1);
+}
+
 // Named after the half that is outlined, or the first one.
 std::uint32_t PrismArrangement::face_of_side_face(LeafIndex i, Facing f,
                                                   const SideFaceState& state) {
     const PrismSideFace& w = side_face(i);
     const bool left = f == Facing::InsideLeft;
     std::int32_t& face = faces_here_[left ? 0 : 1];
+    if (face < 0 && w.wall >= 0) face = static_cast<std::int32_t>(face_of_wall(w, left));
     if (face < 0) {
         std::size_t half = w.facets[0].facet < w.facets[1].facet ? 0 : 1;
         if (state.outlined != both_halves) half = state.outlined == 1 ? 0 : 1;
@@ -485,11 +560,15 @@ NamedOutlines::Vertex PrismArrangement::vertex(LeafIndex i, Bound b, std::size_t
     if (b >= 0) return Vertex::meet(support_of(i), support_of(b), plane_at(position));
     const PrismSideFace& w = side_face(i);
     const std::size_t end = b == at_from ? 0 : 1;
+    const bool is_low = position + 1 == w.first_layer;
+    if (is_low || position + 1 == w.end_layer)
+        return vertex_of(w, facets_.corner_of(w, end, !is_low));
+    if (w.wall >= 0)
+        for (const PrismCorner& c :
+             facets_.walls().side(w.wall, end == 0 ? PrismWalls::AtFrom : PrismWalls::AtTo))
+            if (height_of(w, c) == facets_.positions()[position]) return vertex_of(w, c);
     const PolygonRef& f = w.facets[end];
-    const PrismFacets::Upright upright = facets_.upright_edge(w, end);
-    if (position + 1 == w.first_layer) return Vertex::corner_of(f.source, f.facet, upright.low);
-    if (position + 1 == w.end_layer) return Vertex::corner_of(f.source, f.facet, upright.high);
-    return Vertex::meet(support_of(i), PlaneName::edge(f.source, f.facet, upright.edge),
+    return Vertex::meet(support_of(i), PlaneName::edge(f.source, f.facet, w.upright[end].edge),
                         plane_at(position));
 }
 
@@ -500,7 +579,7 @@ EdgeName PrismArrangement::side_of_bound(LeafIndex i, Bound b, bool keeps_to) co
     if (b < 0) {
         const std::size_t end = b == at_from ? 0 : 1;
         const PolygonRef& f = w.facets[end];
-        return {PlaneName::edge(f.source, f.facet, facets_.upright_edge(w, end).edge), false};
+        return {PlaneName::edge(f.source, f.facet, w.upright[end].edge), false};
     }
     const PrismSideFace& other = side_face(b);
     const bool left = turn(other.from, other.to, keeps_to ? w.to : w.from) > 0;
@@ -545,20 +624,24 @@ void PrismArrangement::finish_caps() {
         ref.flipped = (component.bounds > 0) != facets_.faces_up(ref);
         out_.push_back(ref);
     }
+    const auto is_left_out = [&](const CapEdge& c) {
+        return c.component >= 0 && components_[c.component].whole;
+    };
     std::vector<std::int32_t> faces(2 * planes.size(), -1);
+    outlines_.edges.reserve(outlines_.edges.size() + cap_edges_.size() -
+                            as_index(std::ranges::count_if(cap_edges_, is_left_out)));
     for (const CapEdge& c : cap_edges_) {
-        if (c.component >= 0 && components_[c.component].whole) continue;
-        std::int32_t& face = faces[c.edge.face];
+        if (is_left_out(c)) continue;
+        std::int32_t& face = faces[c.face];
         if (face < 0) {
-            const std::size_t first = planes[c.edge.face / 2].first;
+            const std::size_t first = planes[c.face / 2].first;
             TRISECT_EXPECTS(first != CapPlane::none, "an outline where all components are whole");
             const PolygonRef& ref = caps[first].ref;
-            const bool up = c.edge.face % 2 == 1;
+            const bool up = c.face % 2 == 1;
             face = static_cast<std::int32_t>(outlines_.faces.size());
             outlines_.faces.push_back({ref.source, ref.facet, up != facets_.faces_up(ref)});
         }
-        outlines_.edges.push_back(c.edge);
-        outlines_.edges.back().face = static_cast<std::uint32_t>(face);
+        add_cap_edge(c, static_cast<std::uint32_t>(face));
     }
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const bool is_outlined = faces[2 * i] >= 0 || faces[2 * i + 1] >= 0;
@@ -570,6 +653,21 @@ void PrismArrangement::finish_caps() {
             outlines_.first_facets.push_back({ref.source, ref.facet, false});
         }
     }
+}
+
+void PrismArrangement::add_cap_edge(const CapEdge& c, std::uint32_t face) {
+    const PrismSideFace& w = side_face(c.side_face);
+    const std::size_t position = c.face / 2;
+    const bool up = c.face % 2 == 1;
+    NamedOutlines::Edge e;
+    e.from = vertex(c.side_face, c.from, position);
+    e.to = vertex(c.side_face, c.to, position);
+    e.line = {support_of(c.side_face), c.left == w.above_is_left[0]};
+    e.face = face;
+    between_.clear();
+    if (c.all) add_corners_between(c.side_face, position);
+    divide(w, e, c.left != up,
+           [&](const NamedOutlines::Edge& part) { outlines_.edges.push_back(part); });
 }
 
 }  // namespace trisect::detail

@@ -58,9 +58,15 @@ private:
         return i.left == i.right ? Facing::None
                                  : (i.left ? Facing::InsideLeft : Facing::InsideRight);
     }
+    /// An edge of a face in the plane of a cap, until it is known which components are whole.
     struct CapEdge {
-        NamedOutlines::Edge edge;
+        LeafIndex side_face = 0;
+        Bound from = at_from;
+        Bound to = at_to;
+        std::uint32_t face = 0;       // twice the position, one more if it is up
         std::int32_t component = -1;  // of whose facets it is an edge if they are whole
+        bool left = false;            // the face is to the left of the side face
+        bool all = false;             // of the side face, where it ends
     };
     /// How much of a side face bounds the result: bits for its two halves.
     struct SideFaceState {
@@ -96,6 +102,11 @@ private:
     [[nodiscard]] bool is_low(const PrismSideFace& w, std::size_t half) const;
     [[nodiscard]] bool is_unbroken(std::size_t position) const;
     [[nodiscard]] bool is_same_beside(std::size_t position, std::size_t s, std::size_t t) const;
+    /// Of intervals [s, t). Elsewhere neither a wall nor the cap beside it is whole.
+    [[nodiscard]] bool is_all_at_end(std::size_t p, std::size_t s, std::size_t t) const {
+        return (p == 0 || p + 2 == layers_here_) && s == 0 && t == begins_.size();
+    }
+    void add_whole(const PrismSideFace& w, const SideFaceState& state);
     void add_whole_halves(const PrismSideFace& w, const SideFaceState& state);
     void add_horizontal_edges(LeafIndex i, const SideFaceState& state);
     void note_component(LeafIndex i, std::size_t p, std::array<int, 2> bounds, bool unbroken);
@@ -107,9 +118,23 @@ private:
                      Facing f, const SideFaceState& state);
     void add_half(LeafIndex i, const SideFaceState& state);
     void finish_caps();
+    void add_cap_edge(const CapEdge& c, std::uint32_t face);
 
+    void add_corners_between(LeafIndex i, std::size_t position);
+    void add_corners_upright(LeafIndex i, Bound b, std::size_t below, std::size_t above);
+    template <class Out>
+    void divide(const PrismSideFace& w, NamedOutlines::Edge edge, bool turned,
+                const Out& out) const;
+    [[nodiscard]] std::uint32_t face_of_wall(const PrismSideFace& w, bool left);
     [[nodiscard]] std::uint32_t face_of_side_face(LeafIndex i, Facing f,
                                                   const SideFaceState& state);
+    [[nodiscard]] static NamedOutlines::Vertex vertex_of(const PrismSideFace& w,
+                                                         const PrismCorner& c) {
+        return NamedOutlines::Vertex::corner_of(w.facets[0].source, c.facet, c.corner);
+    }
+    [[nodiscard]] Coordinate height_of(const PrismSideFace& w, const PrismCorner& c) const {
+        return coordinate(w.facets[0].source->corner(c.facet, c.corner), facets_.axis());
+    }
     [[nodiscard]] NamedOutlines::Vertex vertex(LeafIndex i, Bound b, std::size_t position) const;
     [[nodiscard]] EdgeName side_of_bound(LeafIndex i, Bound b, bool keeps_to) const;
     [[nodiscard]] PlaneName support_of(LeafIndex i) const {
@@ -149,7 +174,10 @@ private:
     std::array<bool, 2> cap_is_left_{};
     std::array<std::int32_t, 2> faces_here_{};
 
-    PoolVector<CapEdge> cap_edges_;  // their faces: twice the position, one more if it is up
+    // Of a wall: corners of its facets within the edge in the making, from `from` or from below on.
+    std::vector<PrismCorner> between_;
+
+    PoolVector<CapEdge> cap_edges_;
     NamedOutlines outlines_;
 };
 

@@ -53,9 +53,12 @@ bool PrismComponents::list(const LeafProblem& problem, const PrismFacets& facets
         std::array<std::uint32_t, 2> low{};
         std::array<std::uint32_t, 2> high{};
         for (std::size_t end = 0; end < 2; ++end) {
-            const PrismFacets::Upright at = facets.upright_edge(w, end);
-            low[end] = point(w.operand, w.facets[end], at.low);
-            high[end] = point(w.operand, w.facets[end], at.high);
+            const auto number = [&](const PrismCorner& c) {
+                return first_[as_index(w.operand)] +
+                       w.facets[end].source->corner_index(c.facet, c.corner);
+            };
+            low[end] = number(facets.corner_of(w, end, false));
+            high[end] = number(facets.corner_of(w, end, true));
         }
         edges_.push_back(low);
         of_side_face_.push_back({number_[root(low[0])], number_[root(high[0])]});

@@ -23,23 +23,30 @@ bool same_rectangle(const PrismSideFace& a, const PrismSideFace& b) {
            a.hi == b.hi;
 }
 
+bool is_half(const PrismSideFace& w) {
+    return w.facets[0].source == nullptr || w.facets[1].source == nullptr;
+}
+
+// Whether they are the two halves of one rectangle.
+bool do_fit(const PrismSideFace& a, const PrismSideFace& b) {
+    return is_half(a) && is_half(b) && same_rectangle(a, b) &&
+           a.inside_is_left == b.inside_is_left &&
+           (a.facets[0].source == nullptr) != (b.facets[0].source == nullptr);
+}
+
+// The first one becomes the rectangle.
+void join(PrismSideFace& a, const PrismSideFace& b) {
+    const std::size_t half = a.facets[0].source == nullptr ? 0 : 1;
+    a.facets[half] = b.facets[half];
+    a.upright[half] = b.upright[half];
+    a.above_is_left[half] = b.above_is_left[half];
+}
+
 }  // namespace
 
 bool PrismFacets::faces_up(const PolygonRef& cap) const {
     const auto corner = [&](int i) { return flat(cap.source->corner(cap.facet, i)); };
     return turn(corner(0), corner(1), corner(2)) > 0;
-}
-
-PrismFacets::Upright PrismFacets::upright_edge(const PrismSideFace& side_face,
-                                               std::size_t end) const {
-    const PolygonRef& ref = side_face.facets[end];
-    const auto corner = [&](int i) -> const LatticePoint& {
-        return ref.source->corner(ref.facet, i % 3);
-    };
-    int i = 0;
-    while (flat(corner(i)) != flat(corner(i + 1))) ++i;
-    const bool up = coordinate(corner(i), axis_) < coordinate(corner(i + 1), axis_);
-    return {up ? i : (i + 1) % 3, up ? (i + 1) % 3 : i, i};
 }
 
 // Two of its corners have two coordinates in common, or all three have one.
@@ -60,75 +67,94 @@ bool PrismFacets::may_be_of_prism(const PolygonRef& polygon) {
     return std::ranges::any_of(equal, [](int n) { return n == 3; });
 }
 
-bool PrismFacets::list(const LeafProblem& problem) {
+bool PrismFacets::may_be_of_wall(const PolygonRef& polygon) {
+    if (polygon.fragment != nullptr || polygon.source->is_half_space()) return false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        if (FlatFacet(polygon, axis).is_upright()) return true;
+    return false;
+}
+
+bool PrismFacets::list(const LeafProblem& problem, bool takes_walls) {
+    const auto may_be = takes_walls ? &may_be_of_wall : &may_be_of_prism;
     for (const LeafOperand& o : problem.operands)
-        if (!o.embedded || (!o.polygons.empty() && !(may_be_of_prism(o.polygons.front()) &&
-                                                     may_be_of_prism(o.polygons.back()))))
+        if (!o.embedded ||
+            (!o.polygons.empty() && !(may_be(o.polygons.front()) && may_be(o.polygons.back()))))
             return false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!may_end_at_caps(problem, axis) || !list_along(problem, axis)) continue;
+        if (takes_walls && !may_be_along(problem, axis)) continue;
+        if (!list_along(problem, axis, takes_walls)) continue;
         // Where everything is axis-perpendicular other ways are shorter, whatever the axis.
         if (is_grid()) return false;
-        if (!join_halves() || !find_layers()) continue;
+        if (!find_layers()) continue;
         find_outside(problem);
         return true;
     }
     return false;
 }
 
-// Of large meshes: whether the first side faces end at caps. Straight walls of several rings of
-// facets do not, and to list them takes much longer.
-bool PrismFacets::may_end_at_caps(const LeafProblem& problem, std::size_t axis) {
-    constexpr std::size_t large = 16384;
+// A look at the first facets of each operand, before all are listed.
+bool PrismFacets::may_be_along(const LeafProblem& problem, std::size_t axis) {
     constexpr std::size_t few = 64;
-    std::size_t size = 0;
-    for (const LeafOperand& o : problem.operands) size += o.polygons.size();
-    if (size < large) return true;
-    axis_ = axis;
-    const auto heights = [&](const PolygonRef& ref) {
-        std::array<Coordinate, 3> out;
-        for (int i = 0; i < 3; ++i)
-            out[as_index(i)] = coordinate(ref.source->corner(ref.facet, i), axis_);
-        return out;
-    };
-    const auto is_flat = [](const std::array<Coordinate, 3>& h) {
-        return h[0] == h[1] && h[0] == h[2];
-    };
-    const auto has_upright_edge = [&](const PolygonRef& ref) {
-        const auto corner = [&](int i) { return flat(ref.source->corner(ref.facet, i)); };
-        return corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0);
-    };
-    std::vector<Coordinate> ends;
-    for (const LeafOperand& o : problem.operands)
-        for (const PolygonRef& ref : o.polygons.first(std::min(few, o.polygons.size()))) {
-            const auto h = heights(ref);
-            if (is_flat(h)) continue;
-            if (!has_upright_edge(ref)) return false;
-            ends.insert(ends.end(), h.begin(), h.end());
-        }
-    std::ranges::sort(ends);
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    for (const LeafOperand& o : problem.operands)
-        for (const PolygonRef& ref : o.polygons) {
-            if (ends.empty()) return true;
-            const auto h = heights(ref);
-            if (is_flat(h)) std::erase(ends, h[0]);
-        }
-    return ends.empty();
+    return std::ranges::all_of(problem.operands, [&](const LeafOperand& o) {
+        return std::ranges::all_of(o.polygons.first(std::min(few, o.polygons.size())),
+                                   [&](const PolygonRef& ref) {
+                                       if (ref.fragment != nullptr || ref.source->is_half_space())
+                                           return false;
+                                       const FlatFacet flat(ref, axis);
+                                       return flat.is_cap() || flat.is_upright();
+                                   });
+    });
 }
 
-bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis) {
+bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis, bool takes_walls) {
     axis_ = axis;
     side_faces_.clear();
+    walls_.clear();
     caps_.clear();
+    std::size_t size = 0;
+    for (const LeafOperand& o : problem.operands) size += o.polygons.size();
+    // Prisms over polygons have as many caps as side faces, each of two halves.
+    if (takes_walls) side_faces_.reserve(size / 4 + problem.operands.size());
+    if (takes_walls) caps_.reserve(size / 2);
     for (std::size_t o = 0; o < problem.operands.size(); ++o)
-        for (const PolygonRef& ref : problem.operands[o].polygons) {
-            if (ref.fragment != nullptr || ref.source->is_half_space() ||
-                !add(ref, static_cast<LeafIndex>(o), problem.operands[o].flipped) ||
-                !problem.cell.contains(ref.box()))
-                return false;
-        }
+        if (!list_operand(problem, o, takes_walls)) return false;
     return true;
+}
+
+bool PrismFacets::list_operand(const LeafProblem& problem, std::size_t operand, bool takes_walls) {
+    const LeafOperand& o = problem.operands[operand];
+    const auto number = static_cast<LeafIndex>(operand);
+    const std::size_t first = side_faces_.size();
+    const std::size_t first_cap = caps_.size();
+    bool has_halves = true;
+    std::size_t loose = 0;
+    for (const PolygonRef& ref : o.polygons) {
+        if (ref.fragment != nullptr || ref.source->is_half_space() ||
+            !problem.cell.contains(ref.box()))
+            return false;
+        const FlatFacet flat(ref, axis_);
+        if (flat.is_cap()) {
+            caps_.push_back({number, ref, 0});
+        } else if (has_halves) {
+            has_halves = add_half(ref, flat, number, o.flipped);
+            if (has_halves) ++loose;
+            // Mostly both halves are listed one after the other.
+            if (has_halves && side_faces_.size() > first + 1 &&
+                do_fit(side_faces_.end()[-2], side_faces_.back())) {
+                join(side_faces_.end()[-2], side_faces_.back());
+                side_faces_.pop_back();
+                loose -= 2;
+            }
+        }
+        if (!has_halves && !takes_walls) return false;
+    }
+    // Copies of a rectangle touch, which crossings show as well.
+    has_halves = has_halves && ((takes_walls && loose == 0) || join_halves(first));
+    if (!takes_walls) return has_halves;
+    if (has_halves && end_at_caps(first, first_cap)) return true;
+    side_faces_.resize(first);
+    return walls_.add(o.polygons, number, o.flipped, axis_, side_faces_) &&
+           end_at_caps(first, first_cap);
 }
 
 bool PrismFacets::is_grid() const {
@@ -137,18 +163,9 @@ bool PrismFacets::is_grid() const {
     });
 }
 
-bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
-    std::array<FlatCorner, 3> corners;
-    std::array<Coordinate, 3> height{};
-    for (int i = 0; i < 3; ++i) {
-        const LatticePoint& p = ref.source->corner(ref.facet, i);
-        corners[static_cast<std::size_t>(i)] = flat(p);
-        height[static_cast<std::size_t>(i)] = coordinate(p, axis_);
-    }
-    if (height[0] == height[1] && height[0] == height[2]) {
-        caps_.push_back({operand, ref, 0});
-        return true;
-    }
+bool PrismFacets::add_half(const PolygonRef& ref, const FlatFacet& flat, LeafIndex operand,
+                           bool flipped) {
+    const auto& [corners, height] = flat;
     // The edge along the axis.
     std::size_t i = 0;
     while (i < 3 && corners[i] != corners[(i + 1) % 3]) ++i;
@@ -167,7 +184,10 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
     // Up along the axis and then away from it: the normal is to the left of that way.
     const bool up = height[i] < height[(i + 1) % 3];
     const std::size_t half = turned ? 1 : 0;
+    const auto low = static_cast<std::uint8_t>(up ? i : (i + 1) % 3);
+    const auto high = static_cast<std::uint8_t>(up ? (i + 1) % 3 : i);
     w.facets[half] = ref;
+    w.upright[half] = {low, high, static_cast<std::uint8_t>(i)};
     w.above_is_left[half] = up != turned;
     const bool outside_above = ref.flipped == flipped;
     w.inside_is_left = outside_above != w.above_is_left[half];
@@ -175,26 +195,40 @@ bool PrismFacets::add(const PolygonRef& ref, LeafIndex operand, bool flipped) {
     return true;
 }
 
-bool PrismFacets::join_halves() {
-    if (side_faces_.size() % 2 != 0) return false;
-    std::sort(side_faces_.begin(), side_faces_.end(),
-              [](const PrismSideFace& a, const PrismSideFace& b) {
-                  return side_face_key(a) < side_face_key(b);
-              });
-    for (std::size_t i = 0; i < side_faces_.size(); i += 2) {
-        PrismSideFace& a = side_faces_[i];
-        const PrismSideFace& b = side_faces_[i + 1];
-        if (!same_rectangle(a, b) || a.facets[0].source == nullptr ||
-            b.facets[1].source == nullptr || a.inside_is_left != b.inside_is_left)
-            return false;
-        a.facets[1] = b.facets[1];
-        a.above_is_left[1] = b.above_is_left[1];
-        side_faces_[i / 2] = a;
+// Of an operand, the last ones that are listed. Some are joined.
+bool PrismFacets::join_halves(std::size_t first) {
+    const auto listed = std::span(side_faces_).subspan(first);
+    std::sort(listed.begin(), listed.end(), [](const PrismSideFace& a, const PrismSideFace& b) {
+        return side_face_key(a) < side_face_key(b);
+    });
+    std::size_t joined = first;
+    for (std::size_t i = first; i < side_faces_.size(); ++i) {
+        PrismSideFace w = side_faces_[i];
+        if (is_half(w)) {
+            if (++i == side_faces_.size() || !do_fit(w, side_faces_[i])) return false;
+            join(w, side_faces_[i]);
+        }
+        if (joined > first && same_rectangle(side_faces_[joined - 1], w)) return false;
+        side_faces_[joined++] = w;
     }
-    side_faces_.resize(side_faces_.size() / 2);
-    for (std::size_t i = 1; i < side_faces_.size(); ++i)
-        if (same_rectangle(side_faces_[i - 1], side_faces_[i])) return false;
+    side_faces_.resize(joined);
     return true;
+}
+
+// The last side faces that are listed, at caps of their operand: a grid is made of rectangles as
+// well.
+bool PrismFacets::end_at_caps(std::size_t first, std::size_t first_cap) const {
+    std::vector<Coordinate> heights;
+    for (const PrismCap& c : std::span(caps_).subspan(first_cap)) {
+        const Coordinate h = coordinate(c.ref.source->corner(c.ref.facet, 0), axis_);
+        if (heights.empty() || heights.back() != h) heights.push_back(h);
+    }
+    std::ranges::sort(heights);
+    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+    return std::ranges::all_of(std::span(side_faces_).subspan(first), [&](const PrismSideFace& w) {
+        return std::ranges::binary_search(heights, w.lo) &&
+               std::ranges::binary_search(heights, w.hi);
+    });
 }
 
 bool PrismFacets::find_layers() {

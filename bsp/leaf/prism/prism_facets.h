@@ -11,28 +11,12 @@
 
 #include <trisect/bsp/cells/leaf_problem.h>
 #include <trisect/bsp/leaf/leaf_work.h>
+#include <trisect/bsp/leaf/prism/prism_side_face.h>
+#include <trisect/bsp/leaf/prism/prism_walls.h>
 #include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
-
-/// A rectangle along the axis: two facets with a common diagonal. Its ends are seen along the axis.
-struct PrismSideFace {
-    LeafIndex operand = 0;
-    FlatCorner from{};
-    FlatCorner to{};
-    Coordinate lo;  ///< along the axis
-    Coordinate hi;
-    std::array<PolygonRef, 2> facets;  ///< the first one has an edge at `from`, the other at `to`
-    std::array<bool, 2> above_is_left{};  ///< above a facet's support, seen from `from` to `to`
-    bool inside_is_left = false;          ///< of the operand
-    std::size_t first_layer = 0;          ///< see PrismFacets
-    std::size_t end_layer = 0;
-
-    [[nodiscard]] bool is_in(std::size_t layer) const {
-        return layer >= first_layer && layer < end_layer;
-    }
-};
 
 /// Leaves of prisms may be so many times as large as others.
 inline constexpr std::uint32_t prism_leaf_factor = 40;
@@ -50,10 +34,14 @@ class PrismFacets {
 public:
     /// False when some polygon is neither perpendicular to the axis nor one of the two halves of a
     /// rectangle along it, is cut, or is not all within the cell; or when an operand may meet
-    /// itself.
-    [[nodiscard]] bool list(const LeafProblem& problem);
-    /// False for polygons that are of no prism along any axis.
+    /// itself. With `takes_walls` rectangles may have any facets. \pre then each operand is all
+    /// facets of one source.
+    [[nodiscard]] bool list(const LeafProblem& problem, bool takes_walls = false);
+    /// False for polygons that are of no prism along any axis, or of a wall of other facets than
+    /// halves.
     [[nodiscard]] static bool may_be_of_prism(const PolygonRef& polygon);
+    /// False for polygons that are of no prism along any axis.
+    [[nodiscard]] static bool may_be_of_wall(const PolygonRef& polygon);
 
     [[nodiscard]] std::span<const PrismSideFace> side_faces() const { return side_faces_; }
     /// By position, operand, source and facet.
@@ -64,14 +52,13 @@ public:
     /// Whether a cap's support has its upper side towards greater positions.
     [[nodiscard]] bool faces_up(const PolygonRef& cap) const;
     [[nodiscard]] std::size_t axis() const { return axis_; }
-    /// The edge along the axis of the half of a side face that has one at its `from` (end 0) or
-    /// `to` (end 1): numbers of the facet's corners. `edge` is that of the edge.
-    struct Upright {
-        int low = 0;
-        int high = 0;
-        int edge = 0;
-    };
-    [[nodiscard]] Upright upright_edge(const PrismSideFace& side_face, std::size_t end) const;
+    /// The corner of the operand's mesh in which a side face has its lower or upper corner at
+    /// `from` (end 0) or `to` (end 1).
+    [[nodiscard]] PrismCorner corner_of(const PrismSideFace& w, std::size_t end, bool high) const {
+        if (w.wall >= 0) return walls_.corner(w.wall, end, high);
+        return {w.facets[end].facet, high ? w.upright[end].high : w.upright[end].low};
+    }
+    [[nodiscard]] const PrismWalls& walls() const { return walls_; }
     [[nodiscard]] FlatCorner flat(const LatticePoint& p) const {
         return {coordinate(p, (axis_ + 1) % 3), coordinate(p, (axis_ + 2) % 3)};
     }
@@ -79,16 +66,21 @@ public:
     [[nodiscard]] std::span<const std::uint8_t> outside() const { return outside_; }
 
 private:
-    [[nodiscard]] bool may_end_at_caps(const LeafProblem& problem, std::size_t axis);
-    [[nodiscard]] bool list_along(const LeafProblem& problem, std::size_t axis);
-    [[nodiscard]] bool add(const PolygonRef& ref, LeafIndex operand, bool flipped);
+    [[nodiscard]] bool may_be_along(const LeafProblem& problem, std::size_t axis);
+    [[nodiscard]] bool list_along(const LeafProblem& problem, std::size_t axis, bool takes_walls);
+    [[nodiscard]] bool list_operand(const LeafProblem& problem, std::size_t operand,
+                                    bool takes_walls);
+    [[nodiscard]] bool add_half(const PolygonRef& ref, const FlatFacet& flat, LeafIndex operand,
+                                bool flipped);
     [[nodiscard]] bool is_grid() const;
-    [[nodiscard]] bool join_halves();
+    [[nodiscard]] bool join_halves(std::size_t first);
+    [[nodiscard]] bool end_at_caps(std::size_t first, std::size_t first_cap) const;
     [[nodiscard]] bool find_layers();
     void find_outside(const LeafProblem& problem);
 
     std::size_t axis_ = 0;
     PoolVector<PrismSideFace> side_faces_;
+    PrismWalls walls_;
     PoolVector<PrismCap> caps_;
     std::vector<Coordinate> positions_;
     PoolVector<PolygonRef> named_;
