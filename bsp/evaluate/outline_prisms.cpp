@@ -54,24 +54,6 @@ bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
     });
 }
 
-// A few facets stand for all.
-bool are_large_prisms_in_reach(const Residual::Ref& formula, const SolidStates& solids,
-                               const EvaluateSettings& options) {
-    constexpr std::size_t samples = 64;
-    if (solids.size() != 2 || !are_large_prisms(formula, solids, options)) return false;
-    const Source* const first = only_mesh_of(*solids[0]);
-    const Source* const second = only_mesh_of(*solids[1]);
-    const bool is_first = first->facet_count() >= second->facet_count();
-    const Source& larger = is_first ? *first : *second;
-    const Box& reach = (is_first ? second : first)->box();
-    std::size_t near = 0;
-    for (std::size_t i = 0; i < samples; ++i) {
-        const std::size_t facet = i * larger.facet_count() / samples;
-        if (larger.facet_box(static_cast<std::uint32_t>(facet)).overlaps(reach)) ++near;
-    }
-    return 2 * near >= samples;
-}
-
 std::optional<SolidForm> outline_prisms(const Residual::Ref& formula, const SolidStates& solids,
                                         const EvaluateSettings& options, EvaluateStats& stats,
                                         std::shared_ptr<const LazyTree> tree) {

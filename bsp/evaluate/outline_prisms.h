@@ -18,12 +18,6 @@ namespace trisect::detail {
 [[nodiscard]] bool are_large_prisms(const Residual::Ref& formula, const SolidStates& solids,
                                     const EvaluateSettings& options);
 
-/// The same of two meshes, where most facets of the larger one are near the other one. Where only a
-/// few are, nothing else of it need be looked at.
-[[nodiscard]] bool are_large_prisms_in_reach(const Residual::Ref& formula,
-                                             const SolidStates& solids,
-                                             const EvaluateSettings& options);
-
 /// The value of such a formula: PrismOutlines with that tree, or a CellTree of one leaf where all
 /// facets are whole. Nothing where these are no prisms. \pre are_large_prisms()
 [[nodiscard]] std::optional<SolidForm> outline_prisms(const Residual::Ref& formula,

@@ -199,16 +199,10 @@ constexpr LeafRule by_doubles(std::uint32_t reach, bool (*applies)(const CellVie
 
 using Stats = EvaluateCounters;
 
-constexpr std::size_t formula_rows = 5;
+constexpr std::size_t formula_rows = 4;
 constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
-    Rule{"two meshes of prisms",
-         "two meshes of prisms along one axis, as below, most facets of the larger one in the box "
-         "of "
-         "the other one",
-         "whole facets, outlines by name", &Stats::prism_leaves,
-         FormulaRule{&are_large_prisms_in_reach, &outline_prisms}},
     Rule{"two meshes",
          "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, without an index, of a "
          "size, or of "

@@ -323,7 +323,7 @@ std::vector<Operand> with_divided_edges(const std::vector<Operand>& operands, st
 
 TEST(PrismsOfAnyFacets, OutlinesOfPairsAlongEveryAxis) {
     Leaves leaves;
-    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         reference::Random random(seed + 510000);
         std::vector<Operand> operands =
             with_divided_edges({random_prism(random), random_prism(random)}, seed);
@@ -338,7 +338,7 @@ TEST(PrismsOfAnyFacets, OutlinesOfPairsAlongEveryAxis) {
 
 TEST(PrismsOfAnyFacets, OutlinesOfPlatesWithPockets) {
     Leaves leaves;
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         reference::Random random(seed + 520000);
         std::vector<Operand> operands = with_divided_edges(plate_with_pockets(random), seed);

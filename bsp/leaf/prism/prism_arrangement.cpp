@@ -350,11 +350,11 @@ void PrismArrangement::add_whole_halves(const PrismSideFace& w, const SideFaceSt
     }
 }
 
-// The parts of an edge between the corners in between_. `turned`: from its end to its beginning.
+// The parts of an edge between corners within it. `turned`: from its end to its beginning.
 template <class Out>
-void PrismArrangement::divide(const PrismSideFace& w, NamedOutlines::Edge edge, bool turned,
-                              const Out& out) const {
-    if (between_.empty()) {
+void PrismArrangement::divide(const PrismSideFace& w, NamedOutlines::Edge edge,
+                              std::span<const PrismCorner> between, bool turned, const Out& out) {
+    if (between.empty()) {
         if (turned) std::swap(edge.from, edge.to);
         return out(edge);
     }
@@ -366,7 +366,7 @@ void PrismArrangement::divide(const PrismSideFace& w, NamedOutlines::Edge edge, 
         out(part);
         edge.from = to;
     };
-    for (const PrismCorner& c : between_) add(vertex_of(w, c));
+    for (const PrismCorner& c : between) add(vertex_of(w, c));
     add(end);
 }
 
@@ -442,9 +442,8 @@ void PrismArrangement::add_side_face_edges(LeafIndex i, std::size_t p, std::size
         e.to = vertex(i, end_of_interval(t - 1), position);
         e.line = {plane_at(position), is_above == upper_is_above};
         e.face = face_of_side_face(i, f, state);
-        between_.clear();
-        if (is_all_at_end(p, s, t)) add_corners_between(i, position);
-        divide(side_face(i), e, (f == Facing::InsideLeft) != is_above,
+        divide(side_face(i), e, corners_between(i, position, is_all_at_end(p, s, t)),
+               (f == Facing::InsideLeft) != is_above,
                [&](const NamedOutlines::Edge& part) { outlines_.edges.push_back(part); });
     }
 }
@@ -474,8 +473,8 @@ void PrismArrangement::add_upright(LeafIndex i, Bound b, bool begins, std::size_
     e.to = vertex(i, b, below + end);
     e.line = side_of_bound(i, b, begins);
     e.face = face_of_side_face(i, f, state);
-    add_corners_upright(i, b, below + first, below + end);
-    divide(side_face(i), e, (f == Facing::InsideLeft) == begins,
+    divide(side_face(i), e, corners_upright(i, b, below + first, below + end),
+           (f == Facing::InsideLeft) == begins,
            [&](const NamedOutlines::Edge& part) { outlines_.edges.push_back(part); });
 }
 
@@ -508,25 +507,29 @@ void PrismArrangement::add_half(LeafIndex i, const SideFaceState& state) {
 // outlined beside it has them in its edges. Where nothing beside it is whole, assembly takes them
 // out again.
 
-void PrismArrangement::add_corners_between(LeafIndex i, std::size_t position) {
+// `all`: is_all_at_end().
+std::span<const PrismCorner> PrismArrangement::corners_between(LeafIndex i, std::size_t position,
+                                                               bool all) const {
     const PrismSideFace& w = side_face(i);
-    if (w.wall < 0) return;
+    if (w.wall < 0 || !all) return {};
     const bool is_low = position + 1 == w.first_layer;
     const auto side = facets_.walls().side(w.wall, is_low ? PrismWalls::Bottom : PrismWalls::Top);
-    between_.assign(side.begin() + 1, side.end() - 1);
+    return side.subspan(1, side.size() - 2);
 }
 
 // Between two positions.
-void PrismArrangement::add_corners_upright(LeafIndex i, Bound b, std::size_t below,
-                                           std::size_t above) {
-    between_.clear();
+std::span<const PrismCorner> PrismArrangement::corners_upright(LeafIndex i, Bound b,
+                                                               std::size_t below,
+                                                               std::size_t above) const {
     const PrismSideFace& w = side_face(i);
-    if (w.wall < 0 || b >= 0) return;
-    for (const PrismCorner& c :
-         facets_.walls().side(w.wall, b == at_from ? PrismWalls::AtFrom : PrismWalls::AtTo))
-        if (height_of(w, c) > facets_.positions()[below] &&
-            height_of(w, c) < facets_.positions()[above])
-            between_.push_back(c);
+    if (w.wall < 0 || b >= 0) return {};
+    const auto side =
+        facets_.walls().side(w.wall, b == at_from ? PrismWalls::AtFrom : PrismWalls::AtTo);
+    const auto first = std::ranges::partition_point(
+        side, [&](const PrismCorner& c) { return height_of(w, c) <= facets_.positions()[below]; });
+    const auto end = std::ranges::partition_point(
+        side, [&](const PrismCorner& c) { return height_of(w, c) < facets_.positions()[above]; });
+    return {first, end};
 }
 
 std::uint32_t PrismArrangement::face_of_wall(const PrismSideFace& w, bool left) {
@@ -628,8 +631,10 @@ void PrismArrangement::finish_caps() {
         return c.component >= 0 && components_[c.component].whole;
     };
     std::vector<std::int32_t> faces(2 * planes.size(), -1);
-    outlines_.edges.reserve(outlines_.edges.size() + cap_edges_.size() -
-                            as_index(std::ranges::count_if(cap_edges_, is_left_out)));
+    std::size_t count = outlines_.edges.size();
+    for (const CapEdge& c : cap_edges_)
+        if (!is_left_out(c)) count += 1 + corners_between(c.side_face, c.face / 2, c.all).size();
+    outlines_.edges.reserve(count);
     for (const CapEdge& c : cap_edges_) {
         if (is_left_out(c)) continue;
         std::int32_t& face = faces[c.face];
@@ -664,9 +669,7 @@ void PrismArrangement::add_cap_edge(const CapEdge& c, std::uint32_t face) {
     e.to = vertex(c.side_face, c.to, position);
     e.line = {support_of(c.side_face), c.left == w.above_is_left[0]};
     e.face = face;
-    between_.clear();
-    if (c.all) add_corners_between(c.side_face, position);
-    divide(w, e, c.left != up,
+    divide(w, e, corners_between(c.side_face, position, c.all), c.left != up,
            [&](const NamedOutlines::Edge& part) { outlines_.edges.push_back(part); });
 }
 

@@ -120,11 +120,14 @@ private:
     void finish_caps();
     void add_cap_edge(const CapEdge& c, std::uint32_t face);
 
-    void add_corners_between(LeafIndex i, std::size_t position);
-    void add_corners_upright(LeafIndex i, Bound b, std::size_t below, std::size_t above);
+    [[nodiscard]] std::span<const PrismCorner> corners_between(LeafIndex i, std::size_t position,
+                                                               bool all) const;
+    [[nodiscard]] std::span<const PrismCorner> corners_upright(LeafIndex i, Bound b,
+                                                               std::size_t below,
+                                                               std::size_t above) const;
     template <class Out>
-    void divide(const PrismSideFace& w, NamedOutlines::Edge edge, bool turned,
-                const Out& out) const;
+    static void divide(const PrismSideFace& w, NamedOutlines::Edge edge,
+                       std::span<const PrismCorner> between, bool turned, const Out& out);
     [[nodiscard]] std::uint32_t face_of_wall(const PrismSideFace& w, bool left);
     [[nodiscard]] std::uint32_t face_of_side_face(LeafIndex i, Facing f,
                                                   const SideFaceState& state);
@@ -173,9 +176,6 @@ private:
     // facing.
     std::array<bool, 2> cap_is_left_{};
     std::array<std::int32_t, 2> faces_here_{};
-
-    // Of a wall: corners of its facets within the edge in the making, from `from` or from below on.
-    std::vector<PrismCorner> between_;
 
     PoolVector<CapEdge> cap_edges_;
     NamedOutlines outlines_;

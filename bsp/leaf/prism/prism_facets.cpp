@@ -236,7 +236,10 @@ bool PrismFacets::find_layers() {
         return coordinate(ref.source->corner(ref.facet, 0), axis_);
     };
     positions_.clear();
-    for (const PrismCap& c : caps_) positions_.push_back(height(c.ref));
+    for (const PrismCap& c : caps_) {
+        const Coordinate h = height(c.ref);
+        if (positions_.empty() || positions_.back() != h) positions_.push_back(h);
+    }
     std::ranges::sort(positions_);
     positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
     const auto index = [&](Coordinate p) {
@@ -259,8 +262,12 @@ bool PrismFacets::find_layers() {
     const auto key = [](const PrismCap& c) {
         return std::tuple(c.position, c.operand, c.ref.source->serial(), c.ref.facet);
     };
-    std::sort(caps_.begin(), caps_.end(),
-              [&](const PrismCap& a, const PrismCap& b) { return key(a) < key(b); });
+    // Mostly the order of each operand is that of its facets.
+    std::stable_sort(caps_.begin(), caps_.end(),
+                     [](const PrismCap& a, const PrismCap& b) { return a.position < b.position; });
+    const auto is_before = [&](const PrismCap& a, const PrismCap& b) { return key(a) < key(b); };
+    if (!std::is_sorted(caps_.begin(), caps_.end(), is_before))
+        std::sort(caps_.begin(), caps_.end(), is_before);
     return true;
 }
 

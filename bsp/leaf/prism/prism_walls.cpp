@@ -214,8 +214,8 @@ void PrismWalls::add_wall(std::uint32_t group, std::span<const RimCorner> rim, L
         for (; next != rim.end() && next->side == side; ++next) {
             const PolygonRef& ref = listed_[next->facet];
             if (!has_edge && next->begins_edge) {
-                // In the plane, along the side face and up: a facet that turns left there is above on
-                // the right.
+                // In the plane, along the side face and up: a facet that turns left there is above
+                // on the right.
                 const FlatFacet& f = flat_[next->facet];
                 const auto at = [&](std::size_t k) {
                     return FlatCorner{g.from.u != g.to.u ? f.corners[k].u : f.corners[k].v,
