@@ -86,6 +86,8 @@ struct EvaluateCounters {
     std::uint64_t prism_leaves = 0;     ///< of them, by segments in a plane: prisms along one axis
     std::uint64_t exact_leaves = 0;     ///< of them, by integers: all others
     std::uint64_t half_space_cuts = 0;  ///< meshes cut as a whole by parallel half-spaces
+    /// Two meshes that meet in corners, edges and faces of both alone, so that none is cut.
+    std::uint64_t conforming_pairs = 0;
     std::uint64_t halved_cells = 0;     ///< with many operands all over: half the formula each
     std::uint64_t divided_cells = 0;    ///< by a splitter
     /// Cells in which a mesh that meets itself elsewhere became an embedded operand.

@@ -164,6 +164,7 @@ private:
                 made.push_back(e.from);
             }
         }
+        const std::vector<EqualCorners::Pair> equal = replaced_corners();
         const auto used_in = [](std::span<const std::uint32_t> part) {
             return part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
         };
@@ -179,9 +180,31 @@ private:
         }
         reserve_ready(mesh_.points, count);
         for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
+        for (const EqualCorners::Pair& e : equal)
+            table_of_equal(e.mesh)[e.corner] = table_of_equal(0)[e.first];
         for (const BoundaryEdge& e : edges)
             if (bench_.is_corner(e.from)) number_[as_index(e.from)] = corner_of(e.from);
         return made;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t>& table_of_equal(std::size_t mesh) {
+        return tables_[parts_.table_of(parts_.equal_sources[mesh])];
+    }
+
+    // Corners in use that others stand for, which are in use instead.
+    std::vector<EqualCorners::Pair> replaced_corners() {
+        std::vector<EqualCorners::Pair> out;
+        if (parts_.equal_corners == nullptr) return out;
+        std::vector<std::uint32_t>& first = table_of_equal(0);
+        std::vector<std::uint32_t>& second = table_of_equal(1);
+        for (const EqualCorners::Pair& e : parts_.equal_corners->pairs) {
+            std::uint32_t& corner = (e.mesh == 0 ? first : second)[e.corner];
+            if (corner == no_number) continue;
+            corner = no_number;
+            first[e.first] = in_use;
+            out.push_back(e);
+        }
+        return out;
     }
 
     // Numbers and coordinates for the corners in use; `counts` of them in each part.

@@ -178,6 +178,13 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
     first_serial_ = meshes.crossings->operands[0].serial;
     may_cross_straight_ = meshes.may_have_straight_crossings;
     may_have_sheets_ = meshes.may_have_sheets;
+    if (meshes.equal_corners != nullptr) {
+        out_.equal_corners = meshes.equal_corners.get();
+        for (std::size_t i = 0; i < 2; ++i) {
+            out_.equal_sources[i] = meshes.uncrossed[i].source;
+            (void)table(meshes.uncrossed[i].source);
+        }
+    }
     for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get()) {
         mark_uncrossed(m->uncrossed);
         mark_crossed(*m->crossings);

@@ -13,6 +13,7 @@
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/cells/equal_corners.h>
 #include <trisect/bsp/cells/flat/flat_region.h>
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/cells/outlined_facets.h>
@@ -71,6 +72,9 @@ struct UndividedMeshes {
     /// of this is what the first one has outside the second one, and they touch in curves alone.
     /// Its tree is this one's.
     std::shared_ptr<const UndividedMeshes> beside = nullptr;
+    /// Of two meshes that nothing needs to cut: corners of facets that pass through beside facets
+    /// of the other mesh. Else null.
+    std::shared_ptr<const EqualCorners> equal_corners = nullptr;
 };
 
 /// A set of prisms along one axis, without a tree: facets that are whole, and the rest of the

@@ -28,6 +28,7 @@ constexpr std::array counter_members{
     &Counters::prism_leaves,
     &Counters::exact_leaves,
     &Counters::half_space_cuts,
+    &Counters::conforming_pairs,
     &Counters::halved_cells,
     &Counters::divided_cells,
     &Counters::embedded_cells,

@@ -136,10 +136,27 @@ void FacetSides::join_uncrossed() {
     for (std::size_t i = 0; i < near_.size(); ++i) {
         if (is_crossed_[i] != 0 || has_equal(i)) continue;
         const auto& t = mesh_.triangles[near_[i]];
-        const std::uint32_t a = node_of(t[0]);
-        join(a, node_of(t[1]));
-        join(a, node_of(t[2]));
+        const std::uint32_t a = node_of(point_of(i));
+        for (const std::uint32_t v : t)
+            if (v != point_of(i) && !is_common(v)) join(a, node_of(v));
     }
+}
+
+// What reaches from a common corner or edge to where the other mesh is not.
+bool FacetSides::take_known_sides() {
+    if (conforming_ == nullptr) return true;
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+        const FacetRelation relation = conforming_->relations[i];
+        if (relation != FacetRelation::Above && relation != FacetRelation::Below) continue;
+        for (const std::uint32_t v : mesh_.triangles[near_[i]]) {
+            if (is_common(v)) continue;
+            const std::uint32_t node = node_of(v);
+            sides_.resize(parents_.size(), Side::Unknown);
+            if (!set_side(node, relation == FacetRelation::Above ? Side::Above : Side::Below))
+                return false;
+        }
+    }
+    return true;
 }
 
 // Of a facet with an equal one only some crossings are.
@@ -278,7 +295,7 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
     mark_crossed(crossings, operand);
     join_uncrossed();
     sides_.assign(parents_.size(), Side::Unknown);
-    if (!look_at_outer_runs(outer_below ? Side::Below : Side::Above) ||
+    if (!look_at_outer_runs(outer_below ? Side::Below : Side::Above) || !take_known_sides() ||
         !look_at_pierced_edges(crossings, operand))
         return std::nullopt;
     auto facets = list_uncrossed(below);
@@ -294,8 +311,7 @@ std::optional<std::vector<std::uint32_t>> FacetSides::uncrossed(const Crossings&
 // Of what nothing else gives the side, from one point of each part that hangs together.
 bool FacetSides::look_along_lines(const PointSide& side_of, std::size_t most) {
     std::size_t lines = 0;
-    const auto look_at = [&](std::uint32_t facet) {
-        const std::uint32_t point = mesh_.triangles[facet][0];
+    const auto look_at = [&](std::uint32_t point) {
         const std::uint32_t node = node_of(point);
         sides_.resize(parents_.size(), Side::Unknown);
         if (sides_[root(node)] != Side::Unknown) return true;
@@ -307,8 +323,10 @@ bool FacetSides::look_along_lines(const PointSide& side_of, std::size_t most) {
     for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
         const bool is_near = next < near_.size() && near_[next] == f;
         const bool has_side = !is_near || (is_crossed_[next] == 0 && !has_equal(next));
+        const std::uint32_t point =
+            is_near && has_side ? point_of(next) : mesh_.triangles[f][0];
         next += is_near ? 1 : 0;
-        if (has_side && !look_at(f)) return false;
+        if (has_side && !look_at(point)) return false;
     }
     return true;
 }
@@ -351,7 +369,7 @@ std::optional<std::vector<std::uint32_t>> FacetSides::list_uncrossed(bool below)
                     continue;
                 }
                 if (is_crossed_[i] != 0) continue;
-                const Side of_facet = side_of_joined(mesh_.triangles[near_[i]][0]);
+                const Side of_facet = side_of_joined(point_of(i));
                 if (of_facet == side) *out++ = near_[i];
                 known = known && of_facet != Side::Unknown;
             }

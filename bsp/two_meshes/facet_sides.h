@@ -12,6 +12,7 @@
 
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/two_meshes/conforming/conforming_meshes.h>
 #include <trisect/bsp/two_meshes/cube_grid.h>
 #include <trisect/bsp/two_meshes/equal_facets.h>
 
@@ -30,6 +31,10 @@ public:
     FacetSides(const CubeGrid& grid, const LatticeMesh& mesh, const OccupiedCubes& cubes,
                const CubeSet& other, std::span<const std::uint32_t> near,
                std::span<const EqualFacets::Fate> fates, std::uint32_t threads);
+
+    /// How near facets lie to the other mesh, where nothing crosses: `fates` are by that, and of
+    /// the unknown ones their own. To be called before all else; the mesh outlives this.
+    void set_conforming(const ConformingMeshes::Mesh& mesh) { conforming_ = &mesh; }
 
     /// The facets that nothing crosses and that lie below the other mesh's facets, where `below`,
     /// or above them; in order. `operand` has been numbered by `crossings`; `outer_below`: far out
@@ -69,6 +74,17 @@ private:
     [[nodiscard]] bool has_equal(std::size_t near) const {
         return !fates_.empty() && fates_[near] != EqualFacets::Fate::Own;
     }
+    // Whether the other mesh has a corner there, too; no side is known by that.
+    [[nodiscard]] bool is_common(std::uint32_t point) const {
+        return conforming_ != nullptr && conforming_->is_common[point];
+    }
+    // A point on the side that a near facet is on, if it has no equal.
+    [[nodiscard]] std::uint32_t point_of(std::size_t near) const {
+        return conforming_ != nullptr && !conforming_->corners.empty()
+                   ? conforming_->corners[near]
+                   : mesh_.triangles[near_[near]][0];
+    }
+    [[nodiscard]] bool take_known_sides();
     [[nodiscard]] bool are_pierces_known(std::uint32_t facet) const;
     void mark_crossed(const Crossings& crossings, std::size_t operand);
     void join_uncrossed();
@@ -85,6 +101,7 @@ private:
     const CubeSet& other_;
     std::span<const std::uint32_t> near_;
     std::span<const EqualFacets::Fate> fates_;
+    const ConformingMeshes::Mesh* conforming_ = nullptr;
     std::uint32_t threads_;
     std::vector<std::uint8_t> is_crossed_;  // of the near facets
     std::vector<Run> runs_;

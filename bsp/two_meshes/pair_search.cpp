@@ -50,6 +50,7 @@ struct SharedSearch {
     bool parallel;
     bool recognises_equal;
     bool keeps_sides;
+    const PairsCheck* check;
     Frame frame;
     std::array<FacetClip, 2> clips;
     bool has_long_facets = false;           // set by the finder that begins
@@ -316,7 +317,7 @@ void PairFinder::solve(CellTask& task) {
     ++stats_.cells;
     check_budget(search_.options, stats_);
     stats_.depth = std::max(stats_.depth, task.depth);
-    if (leave_out(task) && !settle_plane(task)) {
+    if (leave_out(task) && (search_.check != nullptr || !settle_plane(task))) {
         stats_.listed_polygons += task.size();
         const bool large = task.size() > search_.options.leaf_polygons &&
                            task.stalled < (pairs_of(task) > many_pairs ? 16 : 4);
@@ -365,6 +366,10 @@ void PairFinder::solve_both(std::array<CellTask, 2>& children) {
 }
 
 void PairFinder::compare(const CellTask& task) {
+    if (search_.check != nullptr) {
+        if (!(*search_.check)(task.operands[0].list(), task.operands[1].list())) give_up();
+        return;
+    }
     polygons_.clear();
     for (const CellOperand& o : task.operands)
         for (const PackedBox& e : o.list()) polygons_.push_back(o.polygon(e.id));
@@ -737,6 +742,7 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
                         parallel_,
                         recognises_equal,
                         keeps_sides,
+                        check,
                         frame,
                         {FacetClip(frame, source(0).mesh()), FacetClip(frame, source(1).mesh())}};
     for (const TwoLists& lists : parts) {

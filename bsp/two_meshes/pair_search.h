@@ -11,6 +11,7 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/evaluate_stats.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/two_meshes/conforming/conforming_meshes.h>
 #include <trisect/bsp/two_meshes/growth_about.h>
 
 namespace trisect::detail {
@@ -48,6 +49,8 @@ public:
     std::vector<TwoLists> parts;   ///< all of one list with all of the other, part after part
     bool recognises_equal = true;  ///< else they are as other facets of one plane
     bool keeps_sides = false;      ///< instead of directions
+    /// If not null, all that is done is to call it cell by cell; the first false makes it hopeless.
+    const PairsCheck* check = nullptr;
 
     /// Appends the crossings, and facets in special position.
     [[nodiscard]] Outcome run(Crossings& crossings, EvaluateStats& stats) const;

@@ -37,6 +37,7 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/divide/reference_points.h>
+#include <trisect/bsp/two_meshes/conforming/conforming_meshes.h>
 #include <trisect/bsp/two_meshes/cube_grid.h>
 #include <trisect/bsp/two_meshes/equal_facets.h>
 #include <trisect/bsp/two_meshes/facet_sides.h>
@@ -448,6 +449,89 @@ private:
     std::array<std::optional<FacetSides>, 2> sides_;
 };
 
+// Two meshes that nothing needs to cut, for all operations.
+class ConformingSides {
+public:
+    ConformingSides(const TwoMeshes& two, const CubesOfBoth& both, const TwoLists& near,
+                    const SolidStates& solids, bool parallel, ConformingMeshes found)
+        : two_(two),
+          both_(both),
+          near_(near),
+          solids_(solids),
+          parallel_(parallel),
+          found_(std::move(found)) {}
+
+    // What bounds the result, of either mesh; nothing when that is not known.
+    [[nodiscard]] std::optional<TwoLists> list(const Crossings& crossings) {
+        std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
+        do_both(
+            parallel_, [&] { facets[0] = list_of(0, crossings); },
+            [&] { facets[1] = list_of(1, crossings); });
+        if (!facets[0] || !facets[1]) return std::nullopt;
+        return TwoLists{*std::move(facets[0]), *std::move(facets[1])};
+    }
+    [[nodiscard]] const ConformingMeshes& found() const { return found_; }
+
+private:
+    // The first mesh stands for both where they cover a part of a plane (equal_facets.cpp).
+    [[nodiscard]] Fate fate_of(std::size_t i, FacetRelation relation,
+                               const Crossings& crossings) const {
+        const auto& operands = crossings.operands;
+        bool is_kept = false;
+        switch (relation) {
+            case FacetRelation::Unknown:
+                return Fate::Own;
+            case FacetRelation::Above:
+            case FacetRelation::Below:
+                is_kept = (relation == FacetRelation::Below) == operands[1 - i].is_open_below();
+                break;
+            case FacetRelation::Same:
+            case FacetRelation::Opposite: {
+                const bool is_below =
+                    (relation == FacetRelation::Same) == operands[0].is_open_below();
+                is_kept = i == 0 && is_below == operands[1].is_open_below();
+                break;
+            }
+        }
+        return is_kept ? Fate::Kept : Fate::Dropped;
+    }
+
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> list_of(std::size_t i,
+                                                                    const Crossings& crossings) {
+        const ConformingMeshes::Mesh& mesh = found_.meshes[i];
+        fates_[i].clear();
+        for (const FacetRelation relation : mesh.relations)
+            fates_[i].push_back(fate_of(i, relation, crossings));
+        if (!found_.are_some_unknown && near_[i].size() == two_.meshes[i]->triangles.size())
+            return list_kept(i);
+        const bool below = crossings.operands[1 - i].is_open_below();
+        if (sides_[i]) return sides_[i]->uncrossed_again(fates_[i], below);
+        sides_[i].emplace(*both_.grid, *two_.meshes[i], *both_.cubes[i],
+                          both_.cubes[1 - i]->cubes(), near_[i], fates_[i], threads_if(parallel_));
+        sides_[i]->set_conforming(mesh);
+        return sides_[i]->uncrossed(crossings, i,
+                                    is_below_far_out(*solids_[1 - i], crossings.operands[1 - i]),
+                                    below, *two_.meshes[1 - i]);
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> list_kept(std::size_t i) const {
+        std::vector<std::uint32_t> out;
+        out.reserve(static_cast<std::size_t>(std::ranges::count(fates_[i], Fate::Kept)));
+        for (std::size_t k = 0; k < near_[i].size(); ++k)
+            if (fates_[i][k] == Fate::Kept) out.push_back(near_[i][k]);
+        return out;
+    }
+
+    const TwoMeshes& two_;
+    const CubesOfBoth& both_;
+    const TwoLists& near_;
+    const SolidStates& solids_;
+    bool parallel_;
+    ConformingMeshes found_;
+    std::array<std::vector<Fate>, 2> fates_;  // of the operation that is looked at
+    std::array<std::optional<FacetSides>, 2> sides_;
+};
+
 // All facets of both meshes that bound the result, where they are far from each other.
 TwoLists facets_apart(const TwoMeshes& two, const SolidStates& solids, const Crossings& crossings) {
     TwoLists out;
@@ -491,6 +575,12 @@ public:
             times_shared_ += is_first ? 0 : 1;
             return keep(facets_apart(two_, solids_, crossings), crossings, stats);
         }
+        if (auto facets = list_conforming(crossings)) {
+            times_shared_ += is_first ? 0 : 1;
+            ++stats.conforming_pairs;
+            shares_facets_ = conforming_->found().has_opposite;
+            return keep(*std::move(facets), crossings, stats);
+        }
         if (serves_again(crossings)) {
             if (auto facets = list_again(crossings)) {
                 ++times_shared_;
@@ -528,11 +618,41 @@ public:
     // Calls of find() with the crossings of the one before.
     [[nodiscard]] std::size_t times_shared() const { return times_shared_; }
 
+    // Of the last formula that had a value.
+    [[nodiscard]] std::shared_ptr<const EqualCorners> equal_corners() const {
+        return conforming_ ? conforming_->found().equal_corners : nullptr;
+    }
+
     // Whether some facet bounds the result for both meshes, which cover it from opposite sides.
     [[nodiscard]] bool shares_facets() const { return shares_facets_; }
 
 private:
     [[nodiscard]] std::uint32_t threads() const { return threads_if(parallel_); }
+
+    // Nothing where the meshes have to be cut. Found out once.
+    [[nodiscard]] std::optional<TwoLists> list_conforming(const Crossings& crossings) {
+        if (std::exchange(is_conforming_known_, true) && !conforming_) return std::nullopt;
+        if (!conforming_) find_conforming(crossings);
+        if (!conforming_) return std::nullopt;
+        auto out = conforming_->list(crossings);
+        if (!out) conforming_.reset();
+        return out;
+    }
+
+    void find_conforming(const Crossings& crossings) {
+        const auto held = memory_.hold((near_[0].size() + near_[1].size()) * bytes_of_near);
+        const auto search = [&](const PairsCheck& check) {
+            PairSearch pairs(two_.nodes, options_, memory_, parallel_);
+            pairs.parts = {near_};
+            pairs.check = &check;
+            Crossings none = crossings;
+            EvaluateStats stats;
+            return !pairs.run(none, stats).is_hopeless;
+        };
+        if (auto found = trisect::detail::find_conforming(two_.meshes, {near_[0], near_[1]},
+                                                          search, threads()))
+            conforming_.emplace(two_, *both_, near_, solids_, parallel_, *std::move(found));
+    }
 
     // The last search.
     struct Last {
@@ -594,7 +714,11 @@ private:
     std::optional<CubesOfBoth> both_;  // where the boxes of both meet
     std::array<MemoryBudget::Held, 2> held_;
     TwoLists near_;
+    static constexpr std::size_t bytes_of_near = 48;  // that find_conforming() holds
+
     std::optional<Last> last_;
+    std::optional<ConformingSides> conforming_;
+    bool is_conforming_known_ = false;
     std::size_t times_shared_ = 0;
     bool is_first_ = true;
     bool ends_with_next_ = false;
@@ -629,6 +753,7 @@ std::optional<UndividedMeshes> find_parts(std::span<const Residual::Ref> parts,
     if (!uncrossed) return std::nullopt;
     crossings.has_other_sides = are_two;
     UndividedMeshes out{*std::move(uncrossed), nullptr, nullptr};
+    out.equal_corners = search.equal_corners();
     if (are_two) {
         if (search.shares_facets()) return std::nullopt;
         if (is_last) search.end_with_next();

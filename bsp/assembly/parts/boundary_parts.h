@@ -3,6 +3,7 @@
 // BoundaryParts: the boundary of a result under construction.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <trisect/bsp/assembly/parts/assembly_stats.h>
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
 #include <trisect/bsp/assembly/parts/facet_marks.h>
+#include <trisect/bsp/cells/equal_corners.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>
@@ -34,6 +36,9 @@ struct BoundaryParts {
     PoolVector<PointId> representatives;
     /// The edges are those of whole faces, and no vertex is left that means nothing.
     bool are_joined = false;
+    /// Corners of two sources that are one vertex, where facets of both pass through; else null.
+    const EqualCorners* equal_corners = nullptr;
+    std::array<const Source*, 2> equal_sources{};
     /// As CellTree::may_have_straight_crossings.
     bool may_have_straight_crossings = false;
     /// Edges inside facets in which their faces go straight across others, each in both directions.
