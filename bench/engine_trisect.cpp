@@ -89,6 +89,7 @@ public:
                 {"mixed_leaves", counters_.mixed_leaves},
                 {"filtered_leaves", counters_.filtered_leaves},
                 {"exact_leaves", counters_.exact_leaves},
+                {"conforming_pairs", counters_.conforming_pairs},
                 {"halved_cells", counters_.halved_cells},
                 {"embedded_cells", counters_.embedded_cells},
                 {"listed_polygons", counters_.listed_polygons},

@@ -461,8 +461,10 @@ public:
           parallel_(parallel),
           found_(std::move(found)) {}
 
-    // What bounds the result, of either mesh; nothing when that is not known.
-    [[nodiscard]] std::optional<TwoLists> list(const Crossings& crossings) {
+    // What bounds the result, of either mesh; nothing when that is not known. `is_part`: it is
+    // beside another one, by which facets that face opposite ways vanish.
+    [[nodiscard]] std::optional<TwoLists> list(const Crossings& crossings, bool is_part) {
+        is_part_ = is_part;
         std::array<std::optional<std::vector<std::uint32_t>>, 2> facets;
         do_both(
             parallel_, [&] { facets[0] = list_of(0, crossings); },
@@ -489,7 +491,8 @@ private:
             case FacetRelation::Opposite: {
                 const bool is_below =
                     (relation == FacetRelation::Same) == operands[0].is_open_below();
-                is_kept = i == 0 && is_below == operands[1].is_open_below();
+                is_kept = i == 0 && is_below == operands[1].is_open_below() &&
+                          !(is_part_ && relation == FacetRelation::Opposite);
                 break;
             }
         }
@@ -529,6 +532,7 @@ private:
     bool parallel_;
     ConformingMeshes found_;
     std::array<std::vector<Fate>, 2> fates_;  // of the operation that is looked at
+    bool is_part_ = false;                    // as that is
     std::array<std::optional<FacetSides>, 2> sides_;
 };
 
@@ -578,7 +582,7 @@ public:
         if (auto facets = list_conforming(crossings)) {
             times_shared_ += is_first ? 0 : 1;
             ++stats.conforming_pairs;
-            shares_facets_ = conforming_->found().has_opposite;
+            shares_facets_ = false;
             return keep(*std::move(facets), crossings, stats);
         }
         if (serves_again(crossings)) {
@@ -613,6 +617,8 @@ public:
     void forget_special_position() {
         if (last_ && !last_->found.is_general) last_.reset();
     }
+    // Whether what is searched next is a part of a result beside another one.
+    void set_part(bool is_part) { is_part_ = is_part; }
     // After this no other formula is searched.
     void end_with_next() { ends_with_next_ = true; }
     // Calls of find() with the crossings of the one before.
@@ -634,7 +640,7 @@ private:
         if (std::exchange(is_conforming_known_, true) && !conforming_) return std::nullopt;
         if (!conforming_) find_conforming(crossings);
         if (!conforming_) return std::nullopt;
-        auto out = conforming_->list(crossings);
+        auto out = conforming_->list(crossings, is_part_);
         if (!out) conforming_.reset();
         return out;
     }
@@ -719,6 +725,7 @@ private:
     std::optional<Last> last_;
     std::optional<ConformingSides> conforming_;
     bool is_conforming_known_ = false;
+    bool is_part_ = false;
     std::size_t times_shared_ = 0;
     bool is_first_ = true;
     bool ends_with_next_ = false;
@@ -748,6 +755,7 @@ std::optional<UndividedMeshes> find_parts(std::span<const Residual::Ref> parts,
     const bool are_two = parts.size() > 1;
     if (is_last && !are_two) search.end_with_next();
     if (are_two) search.forget_special_position();
+    search.set_part(are_two);
     Crossings crossings = *crossings_of(*parts[0], solids);
     auto uncrossed = search.find(crossings, stats);
     if (!uncrossed) return std::nullopt;

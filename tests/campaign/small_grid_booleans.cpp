@@ -94,6 +94,7 @@ struct Counters {
     std::atomic<std::uint64_t> filtered_leaves;     // of them
     std::atomic<std::uint64_t> filtered_fragments;  // in those
     std::atomic<std::uint64_t> undivided;           // meshes of pairs and first steps
+    std::atomic<std::uint64_t> conforming;          // of them
     std::atomic<std::uint64_t> results;             // cell tree against naive
     std::atomic<std::uint64_t> stepwise;            // cell tree, step by step, against naive
     std::atomic<std::uint64_t> classic;             // classic BSP tree against naive
@@ -208,9 +209,11 @@ public:
         });
         if (!stepwise)
             guarded("undivided", expression, [&] {
-                const auto difference =
-                    engines::undivided_difference(engines::formula(expression, solids_), options_);
+                bool conforming = false;
+                const auto difference = engines::undivided_difference(
+                    engines::formula(expression, solids_), options_, &conforming);
                 counters_.undivided += difference ? 1U : 0U;
+                counters_.conforming += conforming ? 1U : 0U;
                 return difference.value_or("");
             });
         if (stepwise)
@@ -548,6 +551,7 @@ void print(const Counters& c) {
     row("of those, in doubles", c.filtered_leaves);
     row("fragments of earlier steps in those", c.filtered_fragments);
     row("meshes of pairs and first steps that were not divided", c.undivided);
+    row("of those, of meshes that were not cut", c.conforming);
     row("formulas of many", c.many);
     row("of those, done pair by pair without a tree", c.pairwise);
     row("pairs of facets in special position in those", c.doubtful);

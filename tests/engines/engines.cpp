@@ -220,7 +220,8 @@ trisect::Solid evaluate_by_cells(const trisect::Expression& expression,
 }
 
 std::optional<std::string> undivided_difference(const trisect::Expression& expression,
-                                                const trisect::EvaluateOptions& options) {
+                                                const trisect::EvaluateOptions& options,
+                                                bool* conforming) {
     using namespace trisect::detail;
     const Translation t = each_once(expression);
     std::vector<std::shared_ptr<const SolidState>> states;
@@ -237,6 +238,7 @@ std::optional<std::string> undivided_difference(const trisect::Expression& expre
                                     whole ? SplittingOffset::of_thread() : usual_splitting_offset};
     const auto state = evaluate_by(undivided, t.formula, states, settings, stats);
     if (state == nullptr) return std::nullopt;
+    if (conforming != nullptr) *conforming = stats.conforming_pairs != 0;
     const trisect::Solid cells = evaluate_by_cells(expression, options);
     const auto expected = mesh_of(*trisect::detail::state_of(cells));
     const auto mesh = mesh_of(*state);

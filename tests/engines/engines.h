@@ -53,9 +53,11 @@ std::string open_edge(const trisect::PolygonMesh& mesh);
 
 /// What is different where two meshes are evaluated without being divided
 /// (two_meshes_without_tree.h), empty when the mesh is the same corner by corner; nothing where
-/// they are divided. Meshes of any size are tried, pieces as well.
+/// they are divided. Meshes of any size are tried, pieces as well. `conforming`: whether the meshes
+/// were not cut (conforming_meshes.h).
 [[nodiscard]] std::optional<std::string> undivided_difference(
-    const trisect::Expression& expression, const trisect::EvaluateOptions& options);
+    const trisect::Expression& expression, const trisect::EvaluateOptions& options,
+    bool* conforming = nullptr);
 
 /// With copies of operands that are named again, where these can be made (named_slots.h).
 [[nodiscard]] trisect::detail::Translation each_once(const trisect::Expression& expression);

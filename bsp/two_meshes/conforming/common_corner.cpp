@@ -1,26 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Two facets around a corner are parts of two cones. Seen along an axis these are sectors of less
-// than a half turn, and lie apart where one of their four sides has all of the other sector beyond
-// it. Of each two spokes, one of either mesh, the turn is computed once.
+// than a half turn, which have nothing but the corner in common where they lie side by side on the
+// circle around it. A place on the circle is the distance along the square |x| + |y| = 1: that is a
+// quotient, and grows with the angle. A round is 4 and half a round 2.
 
 #include <trisect/bsp/two_meshes/conforming/common_corner.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {
 
 namespace {
 
-constexpr std::size_t word_bits = 64;
+// x and y carry one rounding each, so a place is within 8·2^-53 of the exact one, and differences
+// of two within 2^-48 of theirs.
+constexpr double margin = 0x1p-46;
+constexpr double no_place = 8;
+constexpr double half_round = 2;
+constexpr double full_round = 4;
 
-bool has_bit(const std::uint64_t* row, std::uint32_t i) {
-    return (row[i / word_bits] >> (i % word_bits) & 1U) != 0;
+// From -1 up to 3.
+double place_of(double x, double y) {
+    const double size = std::fabs(x) + std::fabs(y);
+    if (!(size > 0)) return no_place;
+    const double along = y / size;
+    return x >= 0 ? along : 2 - along;
 }
+
+// A difference of places, as one from 0 to 4.
+double around(double difference) { return difference < 0 ? difference + full_round : difference; }
 
 }  // namespace
 
@@ -30,116 +42,91 @@ void CommonCorner::set(std::uint32_t name, const CornerFans& fans) {
 }
 
 void CommonCorner::set_mesh(std::size_t mesh, const CornerFans& fans) {
-    auto& sectors = sectors_[mesh];
-    auto& uses = uses_[mesh];
-    auto& spokes = spokes_[mesh];
-    sectors.clear();
-    uses.clear();
-    spokes.clear();
-    for (const CornerFans::Corner c : fans.around(mesh, name_)) {
-        const auto i = static_cast<std::uint32_t>(sectors.size());
+    const auto corners = fans.around(mesh, name_);
+    sectors_[mesh].resize(corners.size());
+    uses_[mesh].clear();
+    Sector* out = sectors_[mesh].data();
+    for (const CornerFans::Corner c : corners) {
         const CornerNames::Triple& t = names_.corners(c.item());
-        sectors.push_back({c.item(), 0, 0});
-        uses.push_back({t[(c.place() + 1) % 3], i, true});
-        uses.push_back({t[(c.place() + 2) % 3], i, false});
+        const std::size_t k = c.place();
+        const std::uint32_t next = t[k == 2 ? 0 : k + 1];
+        const std::uint32_t last = t[k == 0 ? 2 : k - 1];
+        *out++ = {c.item(), next, last, 0, 0};
+        if (next > name_ && names_.is_common(next)) add_use(mesh, {next, c.item(), last, true});
+        if (last > name_ && names_.is_common(last)) add_use(mesh, {last, c.item(), next, false});
     }
-    std::ranges::sort(uses, [](const Use& a, const Use& b) {
-        return a.other != b.other ? a.other < b.other : a.sector < b.sector;
-    });
-    for (const Use& use : uses) {
-        if (spokes.empty() || spokes.back() != use.other) spokes.push_back(use.other);
-        Sector& s = sectors[use.sector];
-        (use.forward ? s.next : s.last) = static_cast<std::uint32_t>(spokes.size() - 1);
-    }
+    constexpr std::size_t few = 32;
+    const auto is_before = [](const Use& a, const Use& b) {
+        return a.other != b.other ? a.other < b.other : a.item < b.item;
+    };
+    if (uses_[mesh].size() > few) std::ranges::sort(uses_[mesh], is_before);
 }
 
-// Along the axis in which the facets of the first mesh together are largest.
-void CommonCorner::project() {
+// In order, unless they are many.
+void CommonCorner::add_use(std::size_t mesh, const Use& use) {
+    constexpr std::size_t few = 32;
+    auto& uses = uses_[mesh];
+    uses.push_back(use);
+    if (uses.size() > few) return;
+    std::size_t i = uses.size() - 1;
+    for (; i > 0 && uses[i - 1].other > use.other; --i) uses[i] = uses[i - 1];
+    uses[i] = use;
+}
+
+// The axis in which the facets of the first mesh together are largest.
+std::size_t CommonCorner::largest_axis() const {
     const Vector3 origin = names_.point(name_).doubles();
-    std::array<std::vector<Vector3>, 2> from;
     Vector3 normal{};
-    const auto at = [&](std::size_t mesh, std::uint32_t spoke) {
-        return minus(names_.point(spokes_[mesh][spoke]).doubles(), origin);
-    };
-    for (const Sector& s : sectors_[0]) normal = plus(normal, cross(at(0, s.next), at(0, s.last)));
+    for (const Sector& s : sectors_[0])
+        normal = plus(normal, cross(minus(names_.point(s.next).doubles(), origin),
+                                    minus(names_.point(s.last).doubles(), origin)));
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
         if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
-    const std::size_t u = (axis + 1) % 3;
-    const std::size_t v = (axis + 2) % 3;
-    for (std::size_t mesh = 0; mesh < 2; ++mesh) {
-        flat_[mesh].clear();
-        for (std::uint32_t i = 0; i < spokes_[mesh].size(); ++i) {
-            const Vector3 p = at(mesh, i);
-            flat_[mesh].push_back({p[u], p[v]});
-        }
-    }
+    return axis;
 }
 
-// Differences round once, so a turn is within 4·2^-53 of the sum of its products.
-void CommonCorner::compare_spokes() {
-    for (std::size_t mesh = 0; mesh < 2; ++mesh) {
-        words_[mesh] = (spokes_[1 - mesh].size() + word_bits - 1) / word_bits;
-        left_[mesh].assign(words_[mesh] * spokes_[mesh].size(), 0);
-        right_[mesh].assign(words_[mesh] * spokes_[mesh].size(), 0);
-    }
-    for (std::size_t i = 0; i < flat_[0].size(); ++i) {
-        const Flat& p = flat_[0][i];
-        for (std::size_t j = 0; j < flat_[1].size(); ++j) {
-            const Flat& q = flat_[1][j];
-            const double over = p.x * q.y;
-            const double under = p.y * q.x;
-            const double turn = over - under;
-            const double bound = minor_rounding * (std::fabs(over) + std::fabs(under));
-            const std::uint64_t is_left = turn > bound ? 1 : 0;
-            const std::uint64_t is_right = turn < -bound ? 1 : 0;
-            const std::size_t of_first = words_[0] * i + j / word_bits;
-            const std::size_t of_second = words_[1] * j + i / word_bits;
-            left_[0][of_first] |= is_left << (j % word_bits);
-            right_[0][of_first] |= is_right << (j % word_bits);
-            right_[1][of_second] |= is_left << (i % word_bits);
-            left_[1][of_second] |= is_right << (i % word_bits);
+// Where doubles do not say how a sector lies, it takes the whole round.
+void CommonCorner::set_angles() {
+    const auto axis = static_cast<int>(largest_axis());
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    const LatticePoint& origin = names_.point(name_);
+    const double x = origin[u].to_double();
+    const double y = origin[v].to_double();
+    const auto place = [&](std::uint32_t name) {
+        const LatticePoint& p = names_.point(name);
+        return place_of(p[u].to_double() - x, p[v].to_double() - y);
+    };
+    for (auto& sectors : sectors_)
+        for (Sector& s : sectors) {
+            const double next = place(s.next);
+            const double last = place(s.last);
+            const double turn = around(last - next);
+            s.from = 0;
+            s.width = full_round;
+            if (next == no_place || last == no_place) continue;
+            if (turn > margin && turn < half_round - margin) {
+                s.from = next;
+                s.width = turn + margin;
+            } else if (turn > half_round + margin && turn < full_round - margin) {
+                s.from = last;
+                s.width = full_round - turn + margin;
+            }
         }
-    }
 }
 
 void CommonCorner::add_open_pairs(std::vector<Pair>& out) {
-    project();
-    compare_spokes();
-    // Which way a sector turns; 0 where doubles do not say so.
-    const auto turn_of = [&](std::size_t mesh, const Sector& s) {
-        const Flat& p = flat_[mesh][s.next];
-        const Flat& q = flat_[mesh][s.last];
-        const double over = p.x * q.y;
-        const double under = p.y * q.x;
-        return certain_sign(over - under, minor_rounding * (std::fabs(over) + std::fabs(under)));
+    set_angles();
+    const auto share_edge = [](const Sector& a, const Sector& b) {
+        return a.next == b.next || a.next == b.last || a.last == b.next || a.last == b.last;
     };
-    // Whether all of the other sector is beyond a side of this one.
-    const auto is_beyond = [&](std::size_t mesh, const Sector& s, int turn, const Sector& other) {
-        const auto are_in = [&](const std::vector<std::uint64_t>& rows, std::uint32_t spoke) {
-            const std::uint64_t* const row = rows.data() + words_[mesh] * spoke;
-            return has_bit(row, other.next) && has_bit(row, other.last);
-        };
-        if (turn > 0) return are_in(left_[mesh], s.last) || are_in(right_[mesh], s.next);
-        if (turn < 0) return are_in(right_[mesh], s.last) || are_in(left_[mesh], s.next);
-        return false;
-    };
-    const auto share_spoke = [&](const Sector& a, const Sector& b) {
-        const std::uint32_t p = spokes_[0][a.next];
-        const std::uint32_t q = spokes_[0][a.last];
-        const std::uint32_t r = spokes_[1][b.next];
-        const std::uint32_t s = spokes_[1][b.last];
-        return p == r || p == s || q == r || q == s;
-    };
-    for (const Sector& a : sectors_[0]) {
-        const int of_a = turn_of(0, a);
+    for (const Sector& a : sectors_[0])
         for (const Sector& b : sectors_[1]) {
-            if (is_beyond(0, a, of_a, b) || share_spoke(a, b) ||
-                is_beyond(1, b, turn_of(1, b), a))
-                continue;
-            out.push_back({a.item, b.item});
+            const double turn = around(b.from - a.from);
+            const bool are_apart = turn > a.width && turn < full_round - b.width;
+            if (!are_apart && !share_edge(a, b)) out.push_back({a.item, b.item});
         }
-    }
 }
 
 }  // namespace trisect::detail

@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -26,6 +27,8 @@
 #include <trisect/bsp/two_meshes/conforming/corner_fans.h>
 #include <trisect/bsp/two_meshes/conforming/covering_patches.h>
 #include <trisect/bsp/two_meshes/conforming/edge_order.h>
+#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/stack_arena.h>
@@ -69,70 +72,107 @@ private:
 // The items of both meshes that use an edge, and the order of their half-planes.
 class CommonEdge {
 public:
-    struct HalfPlane {
-        std::uint32_t item = 0;
-        std::uint32_t apex = 0;
-        bool forward = false;
-        bool is_covered = false;
-    };
+    using Uses = std::array<std::span<const CommonCorner::Use>, 2>;
 
     CommonEdge(const CornerNames& names, Patches& patches) : names_(names), patches_(patches) {}
 
-    /// False where a mesh does not close around it.
-    [[nodiscard]] bool look_at(const CommonCorner& corner,
-                               const std::array<std::span<const CommonCorner::Use>, 2>& uses) {
-        from_ = &names_.point(corner.name());
+    /// False where a mesh does not close around it, or has many facets there.
+    [[nodiscard]] bool look_at(std::uint32_t from, const Uses& uses) {
+        from_ = &names_.point(from);
         to_ = &names_.point(uses[0][0].other);
-        for (std::size_t mesh = 0; mesh < 2; ++mesh) {
-            int balance = 0;
-            halves_[mesh].clear();
-            for (const CommonCorner::Use& use : uses[mesh]) {
-                halves_[mesh].push_back({corner.sector(mesh, use.sector).item,
-                                         corner.apex(mesh, use), use.forward, false});
-                balance += use.forward ? 1 : -1;
-            }
-            if (balance != 0) return false;
+        for (std::size_t mesh = 0; mesh < 2; ++mesh)
+            if (!list(mesh, uses[mesh])) return false;
+        const Vector3 along = minus(to_->doubles(), from_->doubles());
+        for (std::size_t i = 0; i < counts_[0]; ++i) {
+            const Minors minors(along, halves_[0][i].apex_from);
+            for (std::size_t k = 0; k < counts_[1]; ++k) turns_[i][k] = compare(i, k, minors);
         }
-        turns_.clear();
-        for (HalfPlane& a : halves_[0])
-            for (HalfPlane& b : halves_[1]) turns_.push_back(compare(a, b));
         for (std::size_t mesh = 0; mesh < 2; ++mesh) find_sides(mesh);
         return true;
     }
 
 private:
+    static constexpr std::size_t most = 8;
+
+    struct HalfPlane {
+        std::uint32_t item;
+        std::uint32_t apex;
+        bool forward;
+        bool is_covered;
+        Vector3 apex_from;  // the edge's first end
+    };
+    // Of two vectors whose components are differences of doubles.
+    struct Minors {
+        Vector3 value;
+        Vector3 terms;
+
+        Minors(const Vector3& a, const Vector3& b) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t u = k == 2 ? 0 : k + 1;
+                const std::size_t v = k == 0 ? 2 : k - 1;
+                const double over = a[u] * b[v];
+                const double under = a[v] * b[u];
+                value[k] = over - under;
+                terms[k] = std::fabs(over) + std::fabs(under);
+            }
+        }
+        // Of the determinant with another one; 0 where doubles do not decide.
+        [[nodiscard]] int sign_with(const Vector3& c) const {
+            const double det = (value[0] * c[0] + value[1] * c[1]) + value[2] * c[2];
+            const double size = (terms[0] * std::fabs(c[0]) + terms[1] * std::fabs(c[1])) +
+                                terms[2] * std::fabs(c[2]);
+            return certain_sign(det, determinant_rounding * size);
+        }
+    };
+
+    [[nodiscard]] bool list(std::size_t mesh, std::span<const CommonCorner::Use> uses) {
+        if (uses.size() > most) return false;
+        int balance = 0;
+        const Vector3 origin = from_->doubles();
+        counts_[mesh] = uses.size();
+        HalfPlane* out = halves_[mesh].data();
+        for (const CommonCorner::Use& use : uses) {
+            *out++ = {use.item, use.apex, use.forward, false,
+                      minus(names_.point(use.apex).doubles(), origin)};
+            balance += use.forward ? 1 : -1;
+        }
+        return balance == 0;
+    }
     // The turn from one to the other, 1 for counter-clockwise seen against the edge.
-    [[nodiscard]] int turn(std::uint32_t a, std::uint32_t b) const {
+    [[nodiscard]] int exact_turn_of(std::uint32_t a, std::uint32_t b) const {
         return orientation(*to_, names_.point(a), names_.point(b), *from_);
     }
-    [[nodiscard]] int compare(HalfPlane& a, HalfPlane& b) {
+    [[nodiscard]] int compare(std::size_t i, std::size_t k, const Minors& minors) {
+        HalfPlane& a = halves_[0][i];
+        HalfPlane& b = halves_[1][k];
         const bool are_equal = a.apex == b.apex;
-        const int out = are_equal ? 0 : turn(a.apex, b.apex);
-        if (out == 0 &&
-            (are_equal ||
-             are_on_one_side(*from_, *to_, names_.point(a.apex), names_.point(b.apex)))) {
+        if (!are_equal) {
+            if (const int sign = minors.sign_with(b.apex_from); sign != 0) return sign;
+            if (const int sign = exact_turn_of(a.apex, b.apex); sign != 0) return sign;
+        }
+        if (are_equal ||
+            are_on_one_side(*from_, *to_, names_.point(a.apex), names_.point(b.apex))) {
             a.is_covered = b.is_covered = true;
             patches_.join_covering(a.item, b.item);
         }
-        return out;
+        return 0;
     }
-    // Of a mesh's item and the other mesh's.
+    // From a mesh's half-plane to one of the other mesh.
     [[nodiscard]] int known_turn(std::size_t mesh, std::size_t i, std::size_t other) const {
-        const std::size_t columns = halves_[1].size();
-        return mesh == 0 ? turns_[i * columns + other] : -turns_[other * columns + i];
+        return mesh == 0 ? turns_[i][other] : -turns_[other][i];
     }
 
     // Turning counter-clockwise the next facet of the other mesh is come to from below if it runs
     // along the edge, else from above.
     void find_sides(std::size_t mesh) {
         const auto& others = halves_[1 - mesh];
-        for (std::size_t i = 0; i < halves_[mesh].size(); ++i) {
+        for (std::size_t i = 0; i < counts_[mesh]; ++i) {
             const HalfPlane& h = halves_[mesh][i];
             if (h.is_covered || patches_.side(h.item) != FacetRelation::Unknown) continue;
             std::size_t next = 0;
-            for (std::size_t k = 1; k < others.size(); ++k)
+            for (std::size_t k = 1; k < counts_[1 - mesh]; ++k)
                 if (comes_between(known_turn(mesh, i, k), known_turn(mesh, i, next),
-                                  turn(others[k].apex, others[next].apex)))
+                                  exact_turn_of(others[k].apex, others[next].apex)))
                     next = k;
             patches_.set_side(
                 h.item, others[next].forward ? FacetRelation::Below : FacetRelation::Above);
@@ -143,33 +183,35 @@ private:
     Patches& patches_;
     const LatticePoint* from_ = nullptr;
     const LatticePoint* to_ = nullptr;
-    std::array<std::vector<HalfPlane>, 2> halves_;
-    std::vector<int> turns_;  // from those of the first mesh to those of the second
+    std::array<std::array<HalfPlane, most>, 2> halves_{};
+    std::array<std::size_t, 2> counts_{};
+    std::array<std::array<int, most>, most> turns_{};  // from the first mesh's to the second's
 };
 
 // All edges from one corner, those that the other end has not been looked at for.
 class EdgesOfCorner {
 public:
     EdgesOfCorner(const CornerNames& names, Patches& patches)
-        : names_(names), patches_(patches), edge_(names, patches) {}
+        : patches_(patches), edge_(names, patches) {}
 
     [[nodiscard]] bool look_at(const CommonCorner& corner) {
-        std::array<std::span<const CommonCorner::Use>, 2> left{corner.uses(0), corner.uses(1)};
+        CommonEdge::Uses left{corner.uses(0), corner.uses(1)};
         while (!left[0].empty() || !left[1].empty()) {
             std::uint32_t other = ~std::uint32_t{0};
             for (const auto& l : left)
                 if (!l.empty()) other = std::min(other, l[0].other);
-            std::array<std::span<const CommonCorner::Use>, 2> uses;
+            CommonEdge::Uses uses;
             for (std::size_t mesh = 0; mesh < 2; ++mesh) {
                 std::size_t n = 0;
                 while (n < left[mesh].size() && left[mesh][n].other == other) ++n;
                 uses[mesh] = left[mesh].first(n);
                 left[mesh] = left[mesh].subspan(n);
             }
-            if (other < corner.name() || !names_.is_common(other)) continue;
             if (uses[0].empty() || uses[1].empty()) {
-                for (std::size_t mesh = 0; mesh < 2; ++mesh) join(corner, mesh, uses[mesh]);
-            } else if (!edge_.look_at(corner, uses)) {
+                for (const auto& u : uses)
+                    for (std::size_t i = 1; i < u.size(); ++i)
+                        patches_.join(u[0].item, u[i].item);
+            } else if (!edge_.look_at(corner.name(), uses)) {
                 return false;
             }
         }
@@ -177,14 +219,6 @@ public:
     }
 
 private:
-    void join(const CommonCorner& corner, std::size_t mesh,
-              std::span<const CommonCorner::Use> uses) {
-        for (std::size_t i = 1; i < uses.size(); ++i)
-            patches_.join(corner.sector(mesh, uses[0].sector).item,
-                          corner.sector(mesh, uses[i].sector).item);
-    }
-
-    const CornerNames& names_;
     Patches& patches_;
     CommonEdge edge_;
 };
@@ -307,7 +341,6 @@ private:
             const std::size_t mesh = names_.mesh_of(item);
             out.meshes[mesh].relations[item - names_.first_item(mesh)] = FacetRelation::Opposite;
         }
-        out.has_opposite = !covering_.opposite.empty();
         for (std::size_t mesh = 0; mesh < 2; ++mesh)
             if (out.are_some_unknown ||
                 facets_[mesh].size() < meshes_[mesh]->triangles.size())

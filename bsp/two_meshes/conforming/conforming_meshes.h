@@ -36,8 +36,6 @@ struct ConformingMeshes {
     };
     std::array<Mesh, 2> meshes;
     bool are_some_unknown = false;
-    /// Whether facets of both that face opposite ways cover one part of a plane.
-    bool has_opposite = false;
     std::shared_ptr<const EqualCorners> equal_corners;
 };
 

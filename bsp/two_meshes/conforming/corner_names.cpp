@@ -2,6 +2,7 @@
 
 #include <trisect/bsp/two_meshes/conforming/corner_names.h>
 
+#include <algorithm>
 #include <bit>
 
 #include <trisect/kernel/support/flat_map.h>
@@ -27,21 +28,27 @@ CornerNames::CornerNames(const std::array<const LatticeMesh*, 2>& meshes,
       items_{static_cast<std::uint32_t>(facets[0].size()),
              static_cast<std::uint32_t>(facets[0].size() + facets[1].size())},
       first_points_(static_cast<std::uint32_t>(meshes[0]->points.size())),
-      triples_(arena.take<Triple>(facets[0].size() + facets[1].size())) {
+      arena_(arena),
+      triples_(arena.take<Triple>(items_[1])),
+      at_(arena.take<std::uint32_t>(most_names())),
+      is_common_(arena.take<std::uint8_t>(most_names())) {
     rehash(std::bit_ceil(facets[0].size() + 16));
-    at_.reserve(facets[0].size());
-    is_common_.reserve(facets[0].size());
     for (const std::size_t mesh : {0, 1}) name_corners(mesh);
 }
 
 void CornerNames::name_corners(std::size_t mesh) {
     const LatticeMesh& m = *meshes_[mesh];
+    auto* const names = arena_.take<std::uint32_t>(m.points.size());  // of corners that have one
+    std::fill(names, names + m.points.size(), none);
     const std::uint32_t first = mesh == 0 ? 0 : first_points_;
     Triple* out = triples_ + first_item(mesh);
     for (const std::uint32_t f : facets_[mesh]) {
         const auto& t = m.triangles[f];
-        for (std::size_t k = 0; k < 3; ++k)
-            (*out)[k] = name_of(first + t[k], m.points[t[k]], mesh == 1);
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& name = names[t[k]];
+            if (name == none) name = name_of(first + t[k], m.points[t[k]], mesh == 1);
+            (*out)[k] = name;
+        }
         ++out;
     }
 }
@@ -49,8 +56,7 @@ void CornerNames::name_corners(std::size_t mesh) {
 std::uint32_t CornerNames::name_of(std::uint32_t at, const LatticePoint& p, bool is_second) {
     const std::size_t mask = slots_.size() - 1;
     std::size_t i = static_cast<std::size_t>(hash_of(p)) & mask;
-    while (slots_[i].name != none && slots_[i].at != at && point_at(slots_[i].at) != p)
-        i = (i + 1) & mask;
+    while (slots_[i].name != none && point_at(slots_[i].at) != p) i = (i + 1) & mask;
     if (const std::uint32_t name = slots_[i].name; name != none) {
         if (is_second && slots_[i].at < first_points_ && is_common_[name] == 0) {
             is_common_[name] = 1;
@@ -60,14 +66,15 @@ std::uint32_t CornerNames::name_of(std::uint32_t at, const LatticePoint& p, bool
     }
     const auto name = static_cast<std::uint32_t>(count_++);
     slots_[i] = {name, at};
-    at_.push_back(at);
-    is_common_.push_back(0);
+    at_[name] = at;
+    is_common_[name] = 0;
     if (2 * count_ > slots_.size()) rehash(2 * slots_.size());
     return name;
 }
 
 void CornerNames::rehash(std::size_t slots) {
-    slots_.assign(slots, {none, none});
+    slots_ = {arena_.take<Slot>(slots), slots};
+    std::ranges::fill(slots_, Slot{none, none});
     const std::size_t mask = slots - 1;
     for (std::uint32_t name = 0; name < count_; ++name) {
         std::size_t i = static_cast<std::size_t>(hash_of(point_at(at_[name]))) & mask;

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <trisect/brep/lattice_mesh.h>
 #include <trisect/kernel/support/stack_arena.h>
@@ -56,6 +55,7 @@ private:
     void name_corners(std::size_t mesh);
     [[nodiscard]] std::uint32_t name_of(std::uint32_t at, const LatticePoint& p, bool is_second);
     void rehash(std::size_t slots);
+    [[nodiscard]] std::uint32_t most_names() const { return 3 * items_[1]; }
     [[nodiscard]] const LatticePoint& point_at(std::uint32_t at) const {
         return at < first_points_ ? meshes_[0]->points[at] : meshes_[1]->points[at - first_points_];
     }
@@ -64,10 +64,11 @@ private:
     std::array<std::span<const std::uint32_t>, 2> facets_;
     std::array<std::uint32_t, 2> items_{};  // where they end
     std::uint32_t first_points_;
+    StackArena& arena_;
     Triple* triples_;
-    std::vector<Slot> slots_;
-    std::vector<std::uint32_t> at_;  // by name: a corner of the first mesh, or after these
-    std::vector<std::uint8_t> is_common_;
+    std::uint32_t* at_;  // by name: a corner of the first mesh, or after these
+    std::uint8_t* is_common_;
+    std::span<Slot> slots_;  // by value, open addressing
     std::size_t count_ = 0;
     std::size_t common_count_ = 0;
 };
