@@ -88,8 +88,8 @@ struct EvaluateCounters {
     std::uint64_t half_space_cuts = 0;  ///< meshes cut as a whole by parallel half-spaces
     /// Two meshes that meet in corners, edges and faces of both alone, so that none is cut.
     std::uint64_t conforming_pairs = 0;
-    std::uint64_t halved_cells = 0;     ///< with many operands all over: half the formula each
-    std::uint64_t divided_cells = 0;    ///< by a splitter
+    std::uint64_t halved_cells = 0;   ///< with many operands all over: half the formula each
+    std::uint64_t divided_cells = 0;  ///< by a splitter
     /// Cells in which a mesh that meets itself elsewhere became an embedded operand.
     std::uint64_t embedded_cells = 0;
     std::uint64_t listed_polygons = 0;  ///< sum over all visited cells

@@ -13,7 +13,6 @@
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/cells/crossings.h>
-#include <trisect/bsp/cells/equal_corners.h>
 #include <trisect/bsp/cells/flat/flat_region.h>
 #include <trisect/bsp/cells/named_outlines.h>
 #include <trisect/bsp/cells/outlined_facets.h>
@@ -55,6 +54,16 @@ struct UncrossedFacets {
     const Source* source = nullptr;
     bool flipped = false;
     std::vector<std::uint32_t> facets;  ///< ascending
+};
+
+/// Corners with the coordinates of a corner of the first one of two meshes, which stands for them.
+struct EqualCorners {
+    struct Pair {
+        std::uint32_t corner = 0;  ///< of mesh `mesh`
+        std::uint32_t first = 0;   ///< of the first mesh
+        std::uint8_t mesh = 1;     ///< 0 where that has its own corner twice
+    };
+    std::vector<Pair> pairs;  ///< each corner once
 };
 
 /// A set of meshes, or of one and half-spaces, by their facets, without a tree: those that nothing

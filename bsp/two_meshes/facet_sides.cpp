@@ -323,8 +323,7 @@ bool FacetSides::look_along_lines(const PointSide& side_of, std::size_t most) {
     for (std::uint32_t f = 0; f < mesh_.triangles.size(); ++f) {
         const bool is_near = next < near_.size() && near_[next] == f;
         const bool has_side = !is_near || (is_crossed_[next] == 0 && !has_equal(next));
-        const std::uint32_t point =
-            is_near && has_side ? point_of(next) : mesh_.triangles[f][0];
+        const std::uint32_t point = is_near && has_side ? point_of(next) : mesh_.triangles[f][0];
         next += is_near ? 1 : 0;
         if (has_side && !look_at(point)) return false;
     }

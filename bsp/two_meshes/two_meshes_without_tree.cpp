@@ -655,8 +655,8 @@ private:
             EvaluateStats stats;
             return !pairs.run(none, stats).is_hopeless;
         };
-        if (auto found = trisect::detail::find_conforming(two_.meshes, {near_[0], near_[1]},
-                                                          search, threads()))
+        if (auto found = trisect::detail::find_conforming(two_.meshes, {near_[0], near_[1]}, search,
+                                                          threads()))
             conforming_.emplace(two_, *both_, near_, solids_, parallel_, *std::move(found));
     }
 

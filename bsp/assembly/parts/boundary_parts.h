@@ -11,7 +11,7 @@
 #include <trisect/bsp/assembly/parts/assembly_stats.h>
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
 #include <trisect/bsp/assembly/parts/facet_marks.h>
-#include <trisect/bsp/cells/equal_corners.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>

@@ -9,8 +9,8 @@
 //    end at common edges, and the order of the half-planes around such an edge says on which side a
 //    patch is.
 // 3. Patches of both that cover a part of one plane have to cover the same part. They do if their
-//    borders are equal, edge for edge: the triangles of an embedded mesh do not overlap, so a border
-//    determines what of the plane they cover.
+//    borders are equal, edge for edge: the triangles of an embedded mesh do not overlap, so a
+//    border determines what of the plane they cover.
 // 4. Facets that have one corner in common, and others, must have nothing else in common. The
 //    former are compared around the corner, in doubles; a search by boxes finds the latter.
 
@@ -174,8 +174,8 @@ private:
                 if (comes_between(known_turn(mesh, i, k), known_turn(mesh, i, next),
                                   exact_turn_of(others[k].apex, others[next].apex)))
                     next = k;
-            patches_.set_side(
-                h.item, others[next].forward ? FacetRelation::Below : FacetRelation::Above);
+            patches_.set_side(h.item,
+                              others[next].forward ? FacetRelation::Below : FacetRelation::Above);
         }
     }
 
@@ -209,8 +209,7 @@ public:
             }
             if (uses[0].empty() || uses[1].empty()) {
                 for (const auto& u : uses)
-                    for (std::size_t i = 1; i < u.size(); ++i)
-                        patches_.join(u[0].item, u[i].item);
+                    for (std::size_t i = 1; i < u.size(); ++i) patches_.join(u[0].item, u[i].item);
             } else if (!edge_.look_at(corner.name(), uses)) {
                 return false;
             }
@@ -331,8 +330,8 @@ private:
             relations.resize(facets_[mesh].size());
             for (std::size_t i = 0; i < relations.size(); ++i) {
                 const auto item = static_cast<std::uint32_t>(first + i);
-                relations[i] = patches_->is_covered(item) ? FacetRelation::Same
-                                                          : patches_->side(item);
+                relations[i] =
+                    patches_->is_covered(item) ? FacetRelation::Same : patches_->side(item);
                 out.are_some_unknown =
                     out.are_some_unknown || relations[i] == FacetRelation::Unknown;
             }
@@ -342,8 +341,7 @@ private:
             out.meshes[mesh].relations[item - names_.first_item(mesh)] = FacetRelation::Opposite;
         }
         for (std::size_t mesh = 0; mesh < 2; ++mesh)
-            if (out.are_some_unknown ||
-                facets_[mesh].size() < meshes_[mesh]->triangles.size())
+            if (out.are_some_unknown || facets_[mesh].size() < meshes_[mesh]->triangles.size())
                 list_common(mesh, out.meshes[mesh]);
         if (out.are_some_unknown && !choose_corners(out)) return std::nullopt;
         out.equal_corners = equal_corners();

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <trisect/brep/lattice_mesh.h>
-#include <trisect/bsp/cells/equal_corners.h>
 #include <trisect/bsp/cells/packed_box.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/two_meshes/conforming/corner_names.h>
 #include <trisect/bsp/two_meshes/conforming/patches.h>
 

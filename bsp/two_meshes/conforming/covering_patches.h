@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Patches of two meshes that cover one part of a plane.
+// Parts of a plane that patches of two meshes have in common.
 #pragma once
 
 #include <cstdint>

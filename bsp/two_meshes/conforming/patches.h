@@ -16,7 +16,7 @@ namespace trisect::detail {
 /// How a facet lies to the other mesh.
 enum class FacetRelation : std::uint8_t {
     Unknown,
-    Above,    ///< of the other mesh's facets
+    Above,  ///< of the other mesh's facets
     Below,
     Same,     ///< facets of the other mesh cover it and face the same way
     Opposite  ///< they face the other way
@@ -79,7 +79,7 @@ private:
 
     std::uint32_t count_;
     std::uint32_t* parents_;
-    Facts* facts_;            // of roots
+    Facts* facts_;  // of roots
     bool is_consistent_ = true;
 };
 

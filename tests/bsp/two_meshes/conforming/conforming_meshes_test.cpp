@@ -85,8 +85,8 @@ PolygonMesh box(double x, double y, double z, double size = 2) {
 TEST(FindConforming, TakesBoxesSideBySide) {
     for (const bool is_turned : {false, true}) {
         const PolygonMesh beside = box(2, 0, 0);
-        const auto found = find(imported(box(0, 0, 0)),
-                                imported(is_turned ? turned(beside) : beside));
+        const auto found =
+            find(imported(box(0, 0, 0)), imported(is_turned ? turned(beside) : beside));
         ASSERT_TRUE(found);
         EXPECT_FALSE(found->are_some_unknown);
         for (const auto& mesh : found->meshes)

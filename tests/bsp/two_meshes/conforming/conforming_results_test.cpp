@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Booleans of meshes that nothing needs to cut, against sets of tetrahedra: two random sets of the
-// tetrahedra of one complex have boundaries that meet in corners, edges and facets of both, and what
-// a boolean of them bounds follows from the sets.
+// tetrahedra of one complex have boundaries that meet in corners, edges and facets of both, and
+// what a boolean of them bounds follows from the sets.
 
 #include <algorithm>
 #include <array>
@@ -58,8 +58,8 @@ std::vector<Tetrahedron> complex_of(int side, double unit) {
                         ++p[axes[k]];
                         t[k + 1] = placed(p);
                     }
-                    const int inversions = int{axes[0] > axes[1]} + int{axes[1] > axes[2]} +
-                                           int{axes[0] > axes[2]};
+                    const int inversions =
+                        int{axes[0] > axes[1]} + int{axes[1] > axes[2]} + int{axes[0] > axes[2]};
                     if (inversions % 2 != 0) std::swap(t[2], t[3]);
                     out.push_back(t);
                 } while (std::ranges::next_permutation(axes).found);
@@ -202,7 +202,7 @@ TEST(ConformingMeshes, GiveMaximalFacesThatAreThoseOfCells) {
 }
 
 TEST(ConformingMeshes, AreLookedAtOnceForSeveralFormulas) {
-        const PolygonMesh torus = trisect::make_torus(0.7, 0.3, 24, 12);
+    const PolygonMesh torus = trisect::make_torus(0.7, 0.3, 24, 12);
     const Solid a = Solid::from_mesh(torus);
     PolygonMesh image;
     image.points = torus.points;
