@@ -272,6 +272,11 @@ TEST(ConformingMeshes, HaveSidesFarFromTheirCommonFaces) {
     EXPECT_EQ(exact_volume(both), 2 * n * n * n);
     EXPECT_EQ(exact_volume(rest), n * n * n);
     EXPECT_TRUE(common.is_empty());
+    // The faces in which they stand on each other vanish from both parts.
+    const Solid either = evaluate(below ^ above);
+    EXPECT_EQ(exact_volume(either), 2 * n * n * n);
+    EXPECT_EQ(either.to_brep().counts().faces, 6U);
+    EXPECT_EQ(diagnostics.counters().conforming_pairs, 5U);
     EXPECT_EQ(both.to_brep().counts().faces, 6U);
     expect_closed(both.to_mesh());
 }
