@@ -187,7 +187,7 @@ private:
         return made;
     }
 
-    [[nodiscard]] std::vector<std::uint32_t>& table_of_equal(std::size_t mesh) {
+    [[nodiscard]] PoolVector<std::uint32_t>& table_of_equal(std::size_t mesh) {
         return tables_[parts_.table_of(parts_.equal_sources[mesh])];
     }
 
@@ -195,8 +195,8 @@ private:
     std::vector<EqualCorners::Pair> replaced_corners() {
         std::vector<EqualCorners::Pair> out;
         if (parts_.equal_corners == nullptr) return out;
-        std::vector<std::uint32_t>& first = table_of_equal(0);
-        std::vector<std::uint32_t>& second = table_of_equal(1);
+        PoolVector<std::uint32_t>& first = table_of_equal(0);
+        PoolVector<std::uint32_t>& second = table_of_equal(1);
         for (const EqualCorners::Pair& e : parts_.equal_corners->pairs) {
             std::uint32_t& corner = (e.mesh == 0 ? first : second)[e.corner];
             if (corner == no_number) continue;

@@ -41,7 +41,7 @@ std::span<const PrismCorner> PrismWalls::side(LeafIndex wall, Side side) const {
 }
 
 bool PrismWalls::add(std::span<const PolygonRef> polygons, LeafIndex operand, bool flipped,
-                     std::size_t axis, std::vector<PrismSideFace>& out) {
+                     std::size_t axis, PoolVector<PrismSideFace>& out) {
     if (!list_facets(polygons, axis) || !join_neighbours()) return false;
     number_groups();
     if (!find_rims()) return false;
@@ -197,7 +197,7 @@ void PrismWalls::place_facets() {
 }
 
 void PrismWalls::add_wall(std::uint32_t group, std::span<const RimCorner> rim, LeafIndex operand,
-                          bool flipped, std::vector<PrismSideFace>& out) {
+                          bool flipped, PoolVector<PrismSideFace>& out) {
     const Group& g = groups_[group];
     PrismSideFace w;
     w.operand = operand;

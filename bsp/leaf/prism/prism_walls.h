@@ -12,6 +12,7 @@
 
 #include <trisect/bsp/cells/cell_tree.h>
 #include <trisect/bsp/leaf/prism/prism_side_face.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -40,7 +41,7 @@ public:
     /// parallel to the axis, or do not fill rectangles. \pre all facets of one source, which has no
     /// edge with the same two facets on both sides. Time O(n log n).
     [[nodiscard]] bool add(std::span<const PolygonRef> polygons, LeafIndex operand, bool flipped,
-                           std::size_t axis, std::vector<PrismSideFace>& out);
+                           std::size_t axis, PoolVector<PrismSideFace>& out);
 
     /// In the order of the list.
     [[nodiscard]] std::span<const PolygonRef> facets(LeafIndex wall) const;
@@ -100,7 +101,7 @@ private:
     [[nodiscard]] bool add_rim(const Edge& edge);
     void place_facets();
     void add_wall(std::uint32_t group, std::span<const RimCorner> rim, LeafIndex operand,
-                  bool flipped, std::vector<PrismSideFace>& out);
+                  bool flipped, PoolVector<PrismSideFace>& out);
     [[nodiscard]] std::uint32_t root(std::uint32_t facet);
 
     std::vector<Wall> walls_;
