@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// VertexSides: on which side of another solid some vertices lie, by what hangs together.
+// VertexSides: sides of vertices of another solid.
 #pragma once
 
 #include <algorithm>

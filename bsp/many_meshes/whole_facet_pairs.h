@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// WholeFacetPairs: which facets of one list cross which of another one, as far as doubles say.
+// WholeFacetPairs: crossings between two lists of facets, by doubles.
 #pragma once
 
 #include <array>

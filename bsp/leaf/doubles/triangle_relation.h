@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TriangleRelation: how two triangles lie to each other, in doubles.
+// TriangleRelation: the relation of two triangles in doubles.
 #pragma once
 
 #include <array>

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rows of facets in single precision part is apart, by exact orientations of the corners.
+// What rows of facets in single precision part is apart, by exact orientations of the corners; and
+// how two triangles lie to each other by doubles (triangle_relation.h).
 
 #include <trisect/bsp/leaf/doubles/facet_rows.h>
+#include <trisect/bsp/leaf/doubles/triangle_relation.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -46,6 +49,7 @@ bool is_line_beside(const Triangle& t, const std::array<Vector3, 2>& line) {
 struct Piercing {
     bool of_second;
     bool up;
+    std::int8_t edge;
 };
 enum class Contact : std::uint8_t { Apart, Crossing, Special };
 
@@ -64,7 +68,7 @@ bool add_piercings(const Triangle& t, const Triangle& o, bool of_second,
         if (least * most < 0) continue;
         if (least * most == 0) return false;
         // det(a - d, b - d, c - d) is negative where d is above the plane of a, b and c.
-        out.push_back({of_second, from > to});
+        out.push_back({of_second, from > to, static_cast<std::int8_t>(c)});
     }
     return true;
 }
@@ -197,6 +201,43 @@ TEST_P(FacetRowsOf, KnowWhichFacetsCrossAndAtWhoseEdgesTheSegmentEnds) {
     }
     EXPECT_GT(found_, apart_ * 98 / 100);
     EXPECT_GT(found_crossing, crossing * 95 / 100);
+}
+
+TEST_P(FacetRowsOf, AreRelatedByDoublesWhereNothingIsNear) {
+    const double side = static_cast<double>(std::int64_t{1} << GetParam());
+    std::array<std::size_t, 4> kinds{};
+    std::vector<Piercing> piercings;
+    for (const Triangle& a : triangles_) {
+        const FilteredPlane of_a = FilteredFacets::plane_of(a, {side, side, side});
+        for (const Triangle& b : triangles_) {
+            const FilteredPlane of_b = FilteredFacets::plane_of(b, {side, side, side});
+            const TriangleRelation r = relate_triangles({a, of_a}, {b, of_b});
+            const Contact contact = contact_of(a, b, piercings);
+            ++kinds[static_cast<std::size_t>(r.kind)];
+            ASSERT_TRUE(r.kind != TriangleRelation::Kind::Apart || contact == Contact::Apart);
+            if (r.kind != TriangleRelation::Kind::Crossing) continue;
+            ASSERT_EQ(contact, Contact::Crossing);
+            ASSERT_EQ(piercings.size(), 2U);
+            for (std::size_t k = 0; k < 2; ++k) {
+                const TriangleRelation::End end = r.end(k);
+                const TriangleRelation::End turned = r.turned().end(1 - k);
+                ASSERT_EQ(turned.of_second, !end.of_second);
+                ASSERT_EQ(turned.edge.edge(turned.up), end.edge.edge(end.up));
+                ASSERT_TRUE(std::ranges::any_of(piercings, [&](const Piercing& p) {
+                    return p.of_second == end.of_second && p.up == end.up &&
+                           p.edge == end.edge.edge(end.up) && (p.up != p.of_second) == (k == 0);
+                }));
+                trisect::Approximation at;
+                if (find_end({a, of_a}, {b, of_b}, end, at)) {
+                    const FilteredPlane& other = end.of_second ? of_a : of_b;
+                    ASSERT_LE(std::fabs(other.value(at.c)), 4 * other.error(at));
+                }
+            }
+        }
+    }
+    for (const TriangleRelation::Kind kind :
+         {TriangleRelation::Kind::Apart, TriangleRelation::Kind::Crossing})
+        EXPECT_GT(kinds[static_cast<std::size_t>(kind)], 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Bits, FacetRowsOf, testing::Values(2, 4, 10, 20, 40));
