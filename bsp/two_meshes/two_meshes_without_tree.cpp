@@ -647,9 +647,9 @@ private:
 
     void find_conforming(const Crossings& crossings) {
         const auto held = memory_.hold((near_[0].size() + near_[1].size()) * bytes_of_near);
-        const auto search = [&](const PairsCheck& check) {
+        const auto search = [&](const PairsCheck& check, const std::vector<FacetLists>& lists) {
             PairSearch pairs(two_.nodes, options_, memory_, parallel_);
-            pairs.parts = {near_};
+            pairs.parts = lists;
             pairs.check = &check;
             Crossings none = crossings;
             EvaluateStats stats;

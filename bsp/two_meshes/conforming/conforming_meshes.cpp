@@ -229,8 +229,7 @@ public:
                      std::uint32_t threads)
         : meshes_(meshes), facets_(facets), threads_(threads), names_(meshes, facets, arena_) {}
 
-    [[nodiscard]] std::optional<ConformingMeshes> run(
-        const std::function<bool(const PairsCheck&)>& search) {
+    [[nodiscard]] std::optional<ConformingMeshes> run(const PairsSearch& search) {
         if (names_.common_count() == 0 || names_.item_count() >= CornerFans::most_items)
             return std::nullopt;
         patches_.emplace(names_.item_count(), arena_);
@@ -239,7 +238,8 @@ public:
         patches_->flatten();
         if (!look_at_covering()) return std::nullopt;
         const PairContacts contacts(names_, *patches_);
-        if (!are_conforming(contacts) || !search(check_of(contacts))) return std::nullopt;
+        if (!are_conforming(contacts) || !search(check_of(contacts), lists_to_compare()))
+            return std::nullopt;
         return result();
     }
 
@@ -292,6 +292,16 @@ private:
         return are_all;
     }
 
+    // Facets of both that are covered need no comparison: each mesh has them in its own boundary,
+    // where they meet others in corners and edges.
+    [[nodiscard]] std::vector<FacetLists> lists_to_compare() const {
+        std::array<FacetLists, 2> lists;  // by mesh: own ones, covered ones
+        for (std::uint32_t item = 0; item < names_.item_count(); ++item)
+            lists[names_.mesh_of(item)][patches_->is_covered(item) ? 1 : 0].push_back(
+                names_.facet(item));
+        return {{lists[0][0], lists[1][0]}, {lists[0][0], lists[1][1]}, {lists[0][1], lists[1][0]}};
+    }
+
     // Items of facets.
     [[nodiscard]] const std::uint32_t* items_of(std::size_t mesh) {
         auto* const out = arena_.take<std::uint32_t>(meshes_[mesh]->triangles.size());
@@ -304,22 +314,32 @@ private:
         const std::uint32_t* const of_first = items_of(0);
         const std::uint32_t* const of_second = items_of(1);
         return [=, this](std::span<const PackedBox> first, std::span<const PackedBox> second) {
-            for (const PackedBox& a : first) {
-                const PackedReach reach(a);
-                const std::uint32_t item = of_first[a.id];
-                const Triple s = names_.corners(item);
-                for (const PackedBox& b : second) {
-                    if (!reach.meets(b)) continue;
-                    const std::uint32_t other = of_second[b.id];
-                    const Triple& t = names_.corners(other);
-                    bool is_shared = false;
-                    for (const std::uint32_t v : s)
-                        is_shared = is_shared | (v == t[0]) | (v == t[1]) | (v == t[2]);
-                    if (!is_shared && !contacts.is_conforming(item, other)) return false;
+            constexpr std::size_t most = 64;
+            for (; !second.empty(); second = second.subspan(std::min(most, second.size()))) {
+                const auto part = second.first(std::min(most, second.size()));
+                std::array<Triple, most> corners;
+                for (std::size_t k = 0; k < part.size(); ++k)
+                    corners[k] = names_.corners(of_second[part[k].id]);
+                for (const PackedBox& a : first) {
+                    const PackedReach reach(a);
+                    const std::uint32_t item = of_first[a.id];
+                    const Triple s = names_.corners(item);
+                    for (std::size_t k = 0; k < part.size(); ++k)
+                        if (reach.meets(part[k]) && !have_common(s, corners[k]) &&
+                            !contacts.is_conforming(item, of_second[part[k].id]))
+                            return false;
                 }
             }
             return true;
         };
+    }
+
+    // Without a branch: whether they have is as good as random.
+    [[nodiscard]] static bool have_common(const Triple& s, const Triple& t) {
+        const int a = int{s[0] == t[0]} | int{s[0] == t[1]} | int{s[0] == t[2]};
+        const int b = int{s[1] == t[0]} | int{s[1] == t[1]} | int{s[1] == t[2]};
+        const int c = int{s[2] == t[0]} | int{s[2] == t[1]} | int{s[2] == t[2]};
+        return (a | b | c) != 0;
     }
 
     [[nodiscard]] std::optional<ConformingMeshes> result() {
@@ -414,8 +434,8 @@ private:
 
 std::optional<ConformingMeshes> find_conforming(
     const std::array<const LatticeMesh*, 2>& meshes,
-    const std::array<std::span<const std::uint32_t>, 2>& facets,
-    const std::function<bool(const PairsCheck&)>& search, std::uint32_t threads) {
+    const std::array<std::span<const std::uint32_t>, 2>& facets, const PairsSearch& search,
+    std::uint32_t threads) {
     return ConformingSearch(meshes, facets, threads).run(search);
 }
 

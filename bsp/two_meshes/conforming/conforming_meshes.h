@@ -45,14 +45,18 @@ struct ConformingMeshes {
 using PairsCheck =
     std::function<bool(std::span<const PackedBox> first, std::span<const PackedBox> second)>;
 
+/// Calls a check for facets of which each two whose boxes meet, one of either list of a pair of
+/// lists, are together once at least, ids being those of facets; returns whether all calls were
+/// true.
+using FacetLists = std::array<std::vector<std::uint32_t>, 2>;
+using PairsSearch = std::function<bool(const PairsCheck&, const std::vector<FacetLists>&)>;
+
 /// Of meshes that have some corners in common; nothing where they meet in other ways, have no
 /// corner in common, or doubt would cost too much. `facets`: ascending; others do not meet the
-/// other mesh. `search` calls a check for lists in which each two facets whose boxes meet are
-/// together once at least, ids being those of facets, and returns whether all calls were true.
-/// `threads` as in ParallelParts. Exact. O(n log n) for ordinary meshes.
+/// other mesh. `threads` as in ParallelParts. Exact. O(n log n) for ordinary meshes.
 [[nodiscard]] std::optional<ConformingMeshes> find_conforming(
     const std::array<const LatticeMesh*, 2>& meshes,
-    const std::array<std::span<const std::uint32_t>, 2>& facets,
-    const std::function<bool(const PairsCheck&)>& search, std::uint32_t threads);
+    const std::array<std::span<const std::uint32_t>, 2>& facets, const PairsSearch& search,
+    std::uint32_t threads);
 
 }  // namespace trisect::detail

@@ -33,7 +33,7 @@ CornerNames::CornerNames(const std::array<const LatticeMesh*, 2>& meshes,
       at_(arena.take<std::uint32_t>(most_names())),
       is_common_(arena.take<std::uint8_t>(most_names())) {
     rehash(std::bit_ceil(facets[0].size() + 16));
-    for (const std::size_t mesh : {0, 1}) name_corners(mesh);
+    for (std::size_t mesh = 0; mesh < 2; ++mesh) name_corners(mesh);
 }
 
 void CornerNames::name_corners(std::size_t mesh) {

@@ -24,6 +24,7 @@ using trisect::LatticeMesh;
 using trisect::PolygonMesh;
 using trisect::detail::Box;
 using trisect::detail::ConformingMeshes;
+using trisect::detail::FacetLists;
 using trisect::detail::FacetRelation;
 using trisect::detail::find_conforming;
 using trisect::detail::Frame;
@@ -64,7 +65,7 @@ std::optional<ConformingMeshes> find(const LatticeMesh& a, const LatticeMesh& b,
             boxes[i].push_back(PackedBox::of(frame, box, f));
         }
     }
-    const auto search = [&](const PairsCheck& check) {
+    const auto search = [&](const PairsCheck& check, const std::vector<FacetLists>&) {
         if (calls != nullptr) ++*calls;
         return check(boxes[0], boxes[1]);
     };
