@@ -17,8 +17,8 @@ namespace trisect::detail {
 /// Takes blocks of medium size from the BlockPool. What lies at the end of the heap is given back
 /// to the system whenever it is freed, and a small result then pays for the same pages each time, a
 /// twentieth of its whole time, that of a larger one up to a third. Small blocks stay in the heap
-/// anyway. Large ones are rather given back than kept, and are made ready before values are moved
-/// into them (ready_memory.h).
+/// anyway. The largest ones are given back, and are made ready before values are moved into them
+/// (ready_memory.h).
 template <class T>
 class PoolAllocator {
 public:
@@ -54,7 +54,7 @@ private:
     static constexpr std::size_t header = 64;
     static_assert(sizeof(MemoryBlock) <= header && alignof(T) <= header);
     static constexpr std::size_t least = std::size_t{1} << 13;
-    static constexpr std::size_t most = BlockPool::large_block - 4096 - header;
+    static constexpr std::size_t most = (std::size_t{1} << 24) - header;
 
     [[nodiscard]] static constexpr bool is_pooled(std::size_t n) {
         return n >= least / sizeof(T) && n <= most / sizeof(T);

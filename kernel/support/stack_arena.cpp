@@ -57,6 +57,11 @@ public:
         return true;
     }
 
+    [[nodiscard]] std::size_t kept_large() {
+        const std::lock_guard lock(mutex_);
+        return large_.bytes;
+    }
+
 private:
     struct Kept {
         std::size_t most = 0;
@@ -96,7 +101,8 @@ MemoryBlock BlockPool::take(std::size_t bytes) {
 void BlockPool::give_back(const MemoryBlock& block) noexcept {
 #if defined(__linux__) && defined(MADV_FREE)
     // Before others may have it.
-    if (block.size >= huge_page) (void)madvise(block.memory, block.size, MADV_FREE);
+    if (block.size >= huge_page && pool().kept_large() + block.size > ready_bytes)
+        (void)madvise(block.memory, block.size, MADV_FREE);
 #endif
     if (!pool().keep(block)) std::free(block.memory);
 }

@@ -19,12 +19,14 @@ struct MemoryBlock {
 
 /// Blocks that arenas gave back, for those of the next evaluation: fresh memory costs a fault a
 /// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes` of large
-/// blocks, none that is larger than all before, and allows the system to take them when it needs
-/// memory. Of small and medium blocks it keeps no more than a small and a medium result need. Safe
-/// to use from many threads.
+/// blocks, none that is larger than all before, and allows the system to take what goes beyond
+/// `ready_bytes` when it needs memory: such pages may cost as much again as new ones. Of small and
+/// medium blocks it keeps no more than a small and a medium result need. Safe to use from many
+/// threads.
 class BlockPool {
 public:
     static constexpr std::size_t kept_bytes = std::size_t{1} << 28;
+    static constexpr std::size_t ready_bytes = std::size_t{1} << 26;
     /// Arenas take no smaller ones.
     static constexpr std::size_t small_block = std::size_t{1} << 18;
     static constexpr std::size_t kept_small_bytes = std::size_t{1} << 20;
