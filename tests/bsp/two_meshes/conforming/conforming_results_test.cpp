@@ -128,7 +128,7 @@ void expect_closed(const PolygonMesh& mesh) {
     for (const auto& use : uses) EXPECT_EQ(use.second, 0);
 }
 
-struct Counts {
+struct ResultCounts {
     int conforming = 0;
     int all = 0;
 };
@@ -155,7 +155,8 @@ struct RandomSets {
 };
 
 // The mesh has the facets that bound the set where nothing is cut; else it is the same set.
-void expect_set(const Expression& formula, const std::set<Triangle>& expected, Counts& counts) {
+void expect_set(const Expression& formula, const std::set<Triangle>& expected,
+                ResultCounts& counts) {
     const Diagnostics<EvaluateCounters> diagnostics;
     const Solid solid = evaluate(formula);
     const PolygonMesh mesh = solid.to_mesh();
@@ -173,7 +174,7 @@ void expect_set(const Expression& formula, const std::set<Triangle>& expected, C
 }
 
 TEST(ConformingMeshes, GiveTheFacetsOfSetsOfTetrahedra) {
-    Counts counts;
+    ResultCounts counts;
     for (std::uint32_t seed = 0; seed < 12; ++seed) {
         const double unit = seed % 3 == 0 ? 1.0 / 3 : 1;
         const RandomSets sets(seed, unit, seed % 2 == 0 ? 0.5 : 0.15);
