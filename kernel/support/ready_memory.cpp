@@ -14,11 +14,9 @@ namespace trisect::detail {
 
 namespace {
 
-// At both ends up to a large page (2 MiB) has none.
+constexpr std::uintptr_t large_page = std::uintptr_t{1} << 21;
+// Of smaller arrays too much at both ends has no large page, unless they begin with one.
 constexpr std::size_t least_for_large_pages = std::size_t{4} << 20;
-
-// Of larger arrays only what is written takes memory, a large page at a time.
-constexpr std::size_t most_at_once = std::size_t{1} << 25;
 
 // Since Linux 5.14; the headers may be older. Systems without it refuse.
 constexpr int populate_write = 23;
@@ -43,8 +41,13 @@ void make_ready(void* memory, std::size_t bytes) noexcept {
     const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) & ~(page - 1);
     if (begin >= end || is_ready(begin, end)) return;
     auto* const first = reinterpret_cast<void*>(begin);
-    if (bytes >= least_for_large_pages) (void)madvise(first, end - begin, MADV_HUGEPAGE);
-    if (bytes <= most_at_once) (void)madvise(first, end - begin, populate_write);
+    const bool begins_with_one = begin % large_page == 0 && bytes >= large_page;
+    if (bytes >= least_for_large_pages || begins_with_one) {
+        // What is written takes memory, a large page at a time.
+        (void)madvise(first, end - begin, MADV_HUGEPAGE);
+    } else {
+        (void)madvise(first, end - begin, populate_write);
+    }
 }
 
 #else

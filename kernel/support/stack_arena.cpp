@@ -2,6 +2,7 @@
 
 #include <trisect/kernel/support/stack_arena.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <mutex>
 #include <new>
@@ -80,6 +81,44 @@ private:
     std::size_t largest_ = 0;  // that was given back
 };
 
+#if defined(__linux__)
+
+// Of their own, so that the heap is not divided by them: what others allocate finds the places that
+// it had before.
+std::byte* map_pages(std::size_t size, std::size_t alignment) {
+    const std::size_t all = size + alignment - small_page;
+    void* const p = mmap(nullptr, all, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (p == MAP_FAILED) return nullptr;
+    auto* const begin = static_cast<std::byte*>(p);
+    const std::size_t before = -reinterpret_cast<std::uintptr_t>(p) & (alignment - 1);
+    if (before != 0) (void)munmap(begin, before);
+    if (const std::size_t after = all - before - size; after != 0)
+        (void)munmap(begin + before + size, after);
+    return begin + before;
+}
+
+std::byte* get_pages(std::size_t size, std::size_t alignment) {
+    if (size >= BlockPool::small_block) return map_pages(size, alignment);
+    return static_cast<std::byte*>(std::aligned_alloc(alignment, size));
+}
+
+void free_pages(const MemoryBlock& block) noexcept {
+    if (block.size >= BlockPool::small_block) {
+        (void)munmap(block.memory, block.size);
+    } else {
+        std::free(block.memory);
+    }
+}
+
+#else
+
+std::byte* get_pages(std::size_t size, std::size_t alignment) {
+    return static_cast<std::byte*>(std::aligned_alloc(alignment, size));
+}
+void free_pages(const MemoryBlock& block) noexcept { std::free(block.memory); }
+
+#endif
+
 // Never destroyed: what ends after main() may still take blocks and give them back.
 Pool& pool() {
     static Pool& the_pool = *new Pool;
@@ -92,7 +131,7 @@ MemoryBlock BlockPool::take(std::size_t bytes) {
     const std::size_t page = bytes < huge_page ? small_page : huge_page;
     const std::size_t size = (bytes + page - 1) & ~(page - 1);
     if (const MemoryBlock kept = pool().take(size); kept.memory != nullptr) return kept;
-    auto* p = static_cast<std::byte*>(std::aligned_alloc(page, size));
+    auto* const p = get_pages(size, page);
     if (p == nullptr) throw std::bad_alloc();
     make_ready(p, size);
     return {p, size};
@@ -104,7 +143,7 @@ void BlockPool::give_back(const MemoryBlock& block) noexcept {
     if (block.size >= huge_page && pool().kept_large() + block.size > ready_bytes)
         (void)madvise(block.memory, block.size, MADV_FREE);
 #endif
-    if (!pool().keep(block)) std::free(block.memory);
+    if (!pool().keep(block)) free_pages(block);
 }
 
 }  // namespace trisect::detail

@@ -436,6 +436,7 @@ std::optional<ConformingMeshes> find_conforming(
     const std::array<const LatticeMesh*, 2>& meshes,
     const std::array<std::span<const std::uint32_t>, 2>& facets, const PairsSearch& search,
     std::uint32_t threads) {
+    if (!may_have_common_corners(meshes, facets)) return std::nullopt;
     return ConformingSearch(meshes, facets, threads).run(search);
 }
 

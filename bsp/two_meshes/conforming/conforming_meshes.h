@@ -52,8 +52,9 @@ using FacetLists = std::array<std::vector<std::uint32_t>, 2>;
 using PairsSearch = std::function<bool(const PairsCheck&, const std::vector<FacetLists>&)>;
 
 /// Of meshes that have some corners in common; nothing where they meet in other ways, have no
-/// corner in common, or doubt would cost too much. `facets`: ascending; others do not meet the
-/// other mesh. `threads` as in ParallelParts. Exact. O(n log n) for ordinary meshes.
+/// corner in common or so few that a sample misses them, or doubt would cost too much. `facets`:
+/// ascending; others do not meet the other mesh. `threads` as in ParallelParts. Exact. O(n log n)
+/// for ordinary meshes.
 [[nodiscard]] std::optional<ConformingMeshes> find_conforming(
     const std::array<const LatticeMesh*, 2>& meshes,
     const std::array<std::span<const std::uint32_t>, 2>& facets, const PairsSearch& search,

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <bit>
-
-#include <trisect/kernel/support/flat_map.h>
+#include <bitset>
+#include <utility>
+#include <vector>
 
 namespace trisect::detail {
 
@@ -18,7 +19,53 @@ std::uint64_t hash_of(const LatticePoint& p) {
     return h ^ h >> 32;
 }
 
+// Some corners, and a bit for the hash of each.
+class CornerSample {
+public:
+    static constexpr std::size_t few = 64;
+
+    CornerSample(const LatticeMesh& mesh, std::span<const std::uint32_t> facets) {
+        const std::size_t step = std::max(facets.size() / few, std::size_t{1});
+        for (std::size_t i = 0; i < facets.size(); i += step)
+            for (const std::uint32_t v : mesh.triangles[facets[i]]) {
+                const std::uint64_t hash = hash_of(mesh.points[v]);
+                bits_.set(bit_of(hash));
+                corners_.emplace_back(hash, &mesh.points[v]);
+            }
+        std::ranges::sort(corners_, {}, &Corner::first);
+    }
+    [[nodiscard]] bool has(const LatticePoint& p) const {
+        const std::uint64_t hash = hash_of(p);
+        if (!bits_.test(bit_of(hash))) return false;
+        for (auto c = std::ranges::lower_bound(corners_, hash, {}, &Corner::first);
+             c != corners_.end() && c->first == hash; ++c)
+            if (*c->second == p) return true;
+        return false;
+    }
+
+private:
+    using Corner = std::pair<std::uint64_t, const LatticePoint*>;
+    static constexpr unsigned size_bits = 13;
+    static std::size_t bit_of(std::uint64_t hash) {
+        return static_cast<std::size_t>(hash >> (64 - size_bits));
+    }
+    std::bitset<std::size_t{1} << size_bits> bits_;
+    std::vector<Corner> corners_;
+};
+
 }  // namespace
+
+bool may_have_common_corners(const std::array<const LatticeMesh*, 2>& meshes,
+                             const std::array<std::span<const std::uint32_t>, 2>& facets) {
+    const CornerSample sample(*meshes[0], facets[0]);
+    // Of many facets nearly each corner is the first one of some.
+    const std::size_t looked_at = facets[1].size() > CornerSample::few ? 1 : 3;
+    return std::ranges::any_of(facets[1], [&](std::uint32_t f) {
+        const std::span corners = std::span(meshes[1]->triangles[f]).first(looked_at);
+        return std::ranges::any_of(
+            corners, [&](std::uint32_t v) { return sample.has(meshes[1]->points[v]); });
+    });
+}
 
 CornerNames::CornerNames(const std::array<const LatticeMesh*, 2>& meshes,
                          const std::array<std::span<const std::uint32_t>, 2>& facets,

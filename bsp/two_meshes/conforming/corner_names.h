@@ -13,6 +13,12 @@
 
 namespace trisect::detail {
 
+/// Whether some corners of either mesh are equal, by a sample of those of the first one: all of few
+/// facets. Of many facets it may miss some. O(n), a fraction of what names take.
+[[nodiscard]] bool may_have_common_corners(
+    const std::array<const LatticeMesh*, 2>& meshes,
+    const std::array<std::span<const std::uint32_t>, 2>& facets);
+
 /// Equal corners have one name, of whichever mesh they are. Names count up from 0 in the order of
 /// first use. Facets are *items*: those of the first list, then those of the second one.
 class CornerNames {
