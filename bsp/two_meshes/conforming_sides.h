@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ConformingSides: facets that bound a result of two meshes that nothing needs to cut.
+// ConformingSides: the boundary of results of two meshes that conform.
 #pragma once
 
 #include <algorithm>
