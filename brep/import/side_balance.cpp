@@ -20,11 +20,10 @@
 
 #include <algorithm>
 #include <cstring>
-#include <memory>
 #include <vector>
 
 #include <trisect/kernel/support/parallel_parts.h>
-#include <trisect/kernel/support/ready_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect::detail {
@@ -102,7 +101,7 @@ public:
         : first_(static_cast<std::uint32_t>(first)),
           size_(static_cast<std::uint32_t>(end - first)),
           point_count_(point_count),
-          rows_(make_ready_array<Row>(end - first + 1)),
+          rows_(end - first + 1),
           counts_(end - first + 1) {}
 
     // Of triangles that are corners of all points.
@@ -219,7 +218,7 @@ private:
     std::uint32_t first_;
     std::uint32_t size_;
     std::size_t point_count_;
-    std::unique_ptr<Row[]> rows_;  // of the points from the first one on
+    PoolArray<Row> rows_;  // of the points from the first one on
     std::vector<std::uint8_t> counts_;
     std::vector<LateEnds> late_;
     std::vector<std::int32_t> net_;  // of each end: sides that leave for it less those that come

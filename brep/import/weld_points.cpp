@@ -19,7 +19,7 @@
 #include <utility>
 
 #include <trisect/kernel/support/parallel_parts.h>
-#include <trisect/kernel/support/ready_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -145,7 +145,7 @@ bool find_repeated(std::span<const LatticePoint> points, std::span<const std::ui
 // Equal points have equal hashes, so each thread has the points of a range of these.
 bool find_first_on_threads(std::span<const LatticePoint> points, std::size_t expected,
                            const ParallelParts& parts, std::vector<std::uint32_t>& first) {
-    const auto hashes = make_ready_array<std::uint64_t>(points.size());
+    const PoolArray<std::uint64_t> hashes(points.size());
     parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) hashes[i] = hash(points[i]);
     });

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/cell_tree.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -40,14 +41,14 @@ struct NamedOutlines {
         std::uint32_t face = 0;
     };
 
-    std::vector<Face> faces;  ///< each has edges
-    std::vector<Edge> edges;  ///< with all vertices of the result that lie on them
+    PoolVector<Face> faces;  ///< each has edges
+    PoolVector<Edge> edges;  ///< with all vertices of the result that lie on them
     /// Whatever part of a face is looked at, it comes from the operand's face that the facet is of,
     /// but for the planes of `first_facets`.
     bool names_hold_everywhere = true;
     /// Facets after which a plane is named in which several faces of one source were cut, and none
     /// of another: the first of those. The name holds for what such a facet has a part in.
-    std::vector<Face> first_facets;
+    PoolVector<Face> first_facets;
 };
 
 }  // namespace trisect::detail

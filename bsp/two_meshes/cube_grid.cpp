@@ -3,11 +3,10 @@
 #include <trisect/bsp/two_meshes/cube_grid.h>
 
 #include <atomic>
-#include <memory>
 
 #include <trisect/bsp/two_meshes/listed_numbers.h>
 #include <trisect/kernel/support/parallel_parts.h>
-#include <trisect/kernel/support/ready_memory.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -94,8 +93,8 @@ std::size_t most_rows(std::size_t facets) { return 36 * facets + 4096; }
 OccupiedCubes::OccupiedCubes(const CubeGrid& grid, const LatticeMesh& mesh, std::uint32_t threads)
     : grid_(grid),
       triangles_(mesh.triangles),
-      of_points_(make_ready_array<CubeGrid::Cube>(mesh.points.size())),
-      places_(make_ready_array<std::uint32_t>(mesh.triangles.size())) {
+      of_points_(mesh.points.size()),
+      places_(mesh.triangles.size()) {
     ParallelParts(mesh.points.size(), threads, least_in_grid)
         .for_each([&, by_value = grid, out = of_points_.get()](std::size_t, std::size_t begin,
                                                                std::size_t end) {

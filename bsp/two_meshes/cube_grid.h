@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 
 #include <trisect/bsp/cells/cell.h>
 #include <trisect/bsp/cells/source.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -165,9 +165,9 @@ private:
 
     CubeGrid grid_;
     std::span<const std::array<std::uint32_t, 3>> triangles_;
-    std::unique_ptr<CubeGrid::Cube[]> of_points_;
+    PoolArray<CubeGrid::Cube> of_points_;
     /// By facet: the least cube of its range, and in byte 3 its shape.
-    std::unique_ptr<std::uint32_t[]> places_;
+    PoolArray<std::uint32_t> places_;
     CubeSet occupied_;
     std::size_t bytes_ = 0;
     bool is_useful_ = false;

@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <numeric>
 #include <vector>
 
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/ready_memory.h>
 
 namespace trisect::detail {
@@ -25,7 +25,7 @@ template <class List>
     constexpr std::size_t least_part = 16384;
     // Room for one more each: a loop without a branch writes behind the last one.
     const ParallelParts parts(size, threads, least_part);
-    const auto room = make_ready_array<std::uint32_t>(size + parts.count());
+    const PoolArray<std::uint32_t> room(size + parts.count());
     std::vector<std::size_t> counts(parts.count() + 1);
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         std::uint32_t* const out = room.get() + begin + part;

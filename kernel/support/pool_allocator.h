@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PoolAllocator: memory for the vectors of one assembly or one leaf.
+// PoolAllocator: memory of the BlockPool for vectors.
 #pragma once
 
 #include <cstddef>
 #include <limits>
 #include <memory>
 #include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-#include <trisect/kernel/support/ready_memory.h>
-#include <trisect/kernel/support/stack_arena.h>
+#include <trisect/kernel/support/block_pool.h>
 
 namespace trisect::detail {
 
-/// Takes blocks of medium size from the BlockPool. What lies at the end of the heap is given back
-/// to the system whenever it is freed, and a small result then pays for the same pages each time, a
-/// twentieth of its whole time, that of a larger one up to a third. Small blocks stay in the heap
-/// anyway. The largest ones are given back, and are made ready before values are moved into them
-/// (ready_memory.h).
+/// Takes blocks from the BlockPool but for small ones, which stay in the heap anyway. What lies at
+/// the end of the heap is given back to the system whenever it is freed, and a small result then
+/// pays for the same pages each time, a twentieth of its whole time, that of a larger one up to a
+/// third.
 template <class T>
 class PoolAllocator {
 public:
@@ -29,40 +29,56 @@ public:
     PoolAllocator(const PoolAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor)
 
     [[nodiscard]] T* allocate(std::size_t n) {
-        if (!is_pooled(n)) {
-            T* const p = std::allocator<T>().allocate(n);
-            make_ready(static_cast<void*>(p), n * sizeof(T));
-            return p;
-        }
-        const MemoryBlock block = BlockPool::take(n * sizeof(T) + header);
-        ::new (block.memory) MemoryBlock(block);
-        return reinterpret_cast<T*>(block.memory + header);
+        static_assert(alignof(T) <= BlockPool::granule);
+        if (!is_pooled(n)) return std::allocator<T>().allocate(n);
+        if (n > std::numeric_limits<std::size_t>::max() / sizeof(T)) throw std::bad_alloc();
+        return reinterpret_cast<T*>(BlockPool::take(n * sizeof(T)).memory);
     }
     void deallocate(T* p, std::size_t n) noexcept {
         if (!is_pooled(n)) {
             std::allocator<T>().deallocate(p, n);
             return;
         }
-        // The block may be larger than requested, and stores its size in front.
-        const auto* const front = reinterpret_cast<const std::byte*>(p) - header;
-        BlockPool::give_back(*std::launder(reinterpret_cast<const MemoryBlock*>(front)));
+        BlockPool::give_back({reinterpret_cast<std::byte*>(p), BlockPool::rounded(n * sizeof(T))});
     }
 
     friend bool operator==(const PoolAllocator&, const PoolAllocator&) { return true; }
 
 private:
-    static constexpr std::size_t header = 64;
-    static_assert(sizeof(MemoryBlock) <= header && alignof(T) <= header);
     static constexpr std::size_t least = std::size_t{1} << 13;
-    static constexpr std::size_t most = (std::size_t{1} << 24) - header;
 
-    [[nodiscard]] static constexpr bool is_pooled(std::size_t n) {
-        return n >= least / sizeof(T) && n <= most / sizeof(T);
-    }
+    [[nodiscard]] static constexpr bool is_pooled(std::size_t n) { return n >= least / sizeof(T); }
 };
 
 /// A vector that may become large and does not live long.
 template <class T>
 using PoolVector = std::vector<T, PoolAllocator<T>>;
+
+/// An array without values, of the pool unless it is small.
+template <class T>
+class PoolArray {
+public:
+    PoolArray() = default;
+    explicit PoolArray(std::size_t size) : size_(size), values_(PoolAllocator<T>().allocate(size)) {
+        static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+    }
+    PoolArray(PoolArray&& other) noexcept
+        : size_(std::exchange(other.size_, 0)), values_(std::exchange(other.values_, nullptr)) {}
+    PoolArray& operator=(PoolArray&& other) noexcept {
+        std::swap(size_, other.size_);
+        std::swap(values_, other.values_);
+        return *this;
+    }
+    ~PoolArray() {
+        if (values_ != nullptr) PoolAllocator<T>().deallocate(values_, size_);
+    }
+
+    [[nodiscard]] T* get() const { return values_; }
+    [[nodiscard]] T& operator[](std::size_t i) const { return values_[i]; }
+
+private:
+    std::size_t size_ = 0;
+    T* values_ = nullptr;
+};
 
 }  // namespace trisect::detail

@@ -3,6 +3,7 @@
 #include <trisect/kernel/support/ready_memory.h>
 
 #include <cstdint>
+#include <cstdlib>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -34,6 +35,16 @@ bool is_ready(std::uintptr_t begin, std::uintptr_t end) {
 
 }  // namespace
 
+void keep_heap() noexcept {
+    [[maybe_unused]] static const bool is_kept = [] {
+        // The largest one that counts.
+        constexpr std::size_t most_mapped = (std::size_t{1} << 25) - 2 * page;
+        void* volatile const array = std::malloc(most_mapped);
+        std::free(array);
+        return true;
+    }();
+}
+
 void make_ready(void* memory, std::size_t bytes) noexcept {
     if (bytes < least_to_make_ready) return;
     // Whole small pages, which is what the system takes.
@@ -52,6 +63,7 @@ void make_ready(void* memory, std::size_t bytes) noexcept {
 
 #else
 
+void keep_heap() noexcept {}
 void make_ready(void* /*memory*/, std::size_t /*bytes*/) noexcept {}
 
 #endif

@@ -12,14 +12,19 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
-#include <type_traits>
 #include <vector>
 
 namespace trisect::detail {
 
 /// Smaller arrays are left alone: the heap often has them at once.
 inline constexpr std::size_t least_to_make_ready = std::size_t{1} << 16;
+
+/// Before large arrays are allocated. The GNU library gives the end of the heap back to the system
+/// whenever more than 128 kB of it are free, and maps arrays of that size by themselves, until one
+/// of these is freed: since then the limits are its size and twice that. A program that works on
+/// meshes of megabytes comes there sooner or later; until it does, each result pays for the same
+/// pages again. The first call brings it there, by an array of 32 MB that is never touched.
+void keep_heap() noexcept;
 
 /// For memory that will be written soon, nearly all of it. A wish only.
 void make_ready(void* memory, std::size_t bytes) noexcept;
@@ -28,6 +33,7 @@ void make_ready(void* memory, std::size_t bytes) noexcept;
 template <class T, class A>
 void reserve_ready(std::vector<T, A>& values, std::size_t size) {
     if (size <= values.capacity()) return;
+    if (size * sizeof(T) >= least_to_make_ready) keep_heap();
     values.reserve(size);
     make_ready(static_cast<void*>(values.data() + values.size()),
                (size - values.size()) * sizeof(T));
@@ -37,15 +43,6 @@ template <class T, class A>
 void resize_ready(std::vector<T, A>& values, std::size_t size) {
     reserve_ready(values, size);
     values.resize(size);
-}
-
-/// An array without values.
-template <class T>
-[[nodiscard]] std::unique_ptr<T[]> make_ready_array(std::size_t size) {
-    static_assert(std::is_trivially_destructible_v<T>);
-    auto array = std::make_unique_for_overwrite<T[]>(size);
-    make_ready(static_cast<void*>(array.get()), size * sizeof(T));
-    return array;
 }
 
 }  // namespace trisect::detail

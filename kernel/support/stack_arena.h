@@ -9,34 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include <trisect/kernel/support/block_pool.h>
+
 namespace trisect::detail {
-
-/// A piece of memory, aligned to pages.
-struct MemoryBlock {
-    std::byte* memory = nullptr;
-    std::size_t size = 0;
-};
-
-/// Blocks that arenas gave back, for those of the next evaluation: fresh memory costs a fault a
-/// page and its clearing, a sixth of a large evaluation. Keeps at most `kept_bytes` of large
-/// blocks, none that is larger than all before, and allows the system to take what goes beyond
-/// `ready_bytes` when it needs memory: such pages may cost as much again as new ones. Of small and
-/// medium blocks it keeps no more than a small and a medium result need. Safe to use from many
-/// threads.
-class BlockPool {
-public:
-    static constexpr std::size_t kept_bytes = std::size_t{1} << 28;
-    static constexpr std::size_t ready_bytes = std::size_t{1} << 26;
-    /// Arenas take no smaller ones.
-    static constexpr std::size_t small_block = std::size_t{1} << 18;
-    static constexpr std::size_t kept_small_bytes = std::size_t{1} << 20;
-    static constexpr std::size_t large_block = std::size_t{1} << 21;
-    static constexpr std::size_t kept_medium_bytes = std::size_t{1} << 24;
-
-    /// A block of at least that size. \throw std::bad_alloc
-    [[nodiscard]] static MemoryBlock take(std::size_t bytes);
-    static void give_back(const MemoryBlock& block) noexcept;
-};
 
 /// Blocks of memory used as one stack. Objects are trivially destructible and are not initialised;
 /// memory is aligned to 16 bytes. One thread at a time.
@@ -81,6 +56,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t least_block = std::size_t{1} << 18;
+
     void keep_blocks(std::size_t count) {
         for (std::size_t i = count; i < blocks_.size(); ++i) BlockPool::give_back(blocks_[i]);
         blocks_.resize(std::min(count, blocks_.size()));
@@ -91,8 +68,7 @@ private:
         // A block above that is too small holds nothing now: replace it and those above.
         if (next < blocks_.size() && blocks_[next].size < bytes) keep_blocks(next);
         if (next >= blocks_.size()) {
-            const std::size_t least =
-                blocks_.empty() ? BlockPool::small_block : blocks_.back().size;
+            const std::size_t least = blocks_.empty() ? least_block : blocks_.back().size;
             blocks_.reserve(next + 1);
             blocks_.push_back(BlockPool::take(std::max(bytes, least)));
         }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/workbench.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -79,7 +80,7 @@ private:
     [[nodiscard]] std::uint32_t parted_at(std::uint32_t begin, std::uint32_t end);
 
     std::span<Vertex> vertices_;
-    std::vector<Node> nodes_;
+    PoolVector<Node> nodes_;
     std::array<double, 3> origin_{};
     double rounding_ = 0;  // of a coordinate, to single precision
     double scale_ = 1;     // a power of two, so that all vertices are within one or two

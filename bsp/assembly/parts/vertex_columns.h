@@ -90,7 +90,7 @@ private:
     std::size_t axis_ = 0;
     std::span<const Vertex> vertices_;
     PoolVector<std::uint32_t> order_;  // column after column, each along the axis
-    std::vector<Column> columns_;      // a power of two of them, at most half full
+    PoolVector<Column> columns_;       // a power of two of them, at most half full
     std::array<double, 3> origin_{};
     double per_unit_ = 0;  // columns
 };

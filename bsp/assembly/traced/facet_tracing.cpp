@@ -11,7 +11,7 @@ namespace trisect::detail {
 namespace {
 
 template <class T>
-void append(std::vector<T>& to, std::span<const T> from) {
+void append(PoolVector<T>& to, std::span<const T> from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 

@@ -64,9 +64,9 @@ private:
         std::uint32_t meetings = 0;
     };
     PoolVector<Entry> entries_;
-    std::vector<TracedSegment> segments_;
-    std::vector<TracedEdge> edges_;
-    std::vector<OutlineMeetings::Point> meetings_;
+    PoolVector<TracedSegment> segments_;
+    PoolVector<TracedEdge> edges_;
+    PoolVector<OutlineMeetings::Point> meetings_;
 };
 
 class FacetTracing final : ExactOutline {

@@ -156,21 +156,21 @@ private:
     PrismCrossings crossings_;
     PrismComponents components_;
     LeafFormula formula_;
-    std::vector<Step> steps_;
+    PoolVector<Step> steps_;
     std::vector<std::size_t> chain_begin_;
     // Where the walk is: a row of the formula for each layer; operands that differ from what is far
     // away; components around it, of any operand but the side face's own.
     std::size_t row_size_ = 0;
     std::vector<int> rows_;
-    std::vector<LeafIndex> changed_;
+    PoolVector<LeafIndex> changed_;
     std::vector<bool> is_changed_;
     std::vector<std::int32_t> around_;
     std::vector<std::uint8_t> odd_;  // by component
     std::vector<std::int32_t> met_;
     // Of the side face that the walk is at, from its `from` on: where its intervals begin, and what
     // is beside them, from the layer below it to the one above it.
-    std::vector<Bound> begins_;
-    std::vector<Inside> insides_;
+    PoolVector<Bound> begins_;
+    PoolVector<Inside> insides_;
     std::size_t layers_here_ = 0;
     // Of the same side face: where the caps are that end it, below and above, and its faces by
     // facing.
