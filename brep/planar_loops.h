@@ -14,7 +14,6 @@
 
 #include <trisect/kernel/plane.h>
 #include <trisect/kernel/point.h>
-#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect {
 
@@ -119,7 +118,7 @@ private:
     }
 
     PlaneProjection projection_;
-    detail::PoolVector<Corner> corners_;
+    std::vector<Corner> corners_;
     std::vector<std::uint32_t> point_at_;  // by place
     std::vector<std::uint32_t> order_;     // corners by place
     std::vector<std::uint32_t> outlines_;
