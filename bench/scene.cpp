@@ -17,6 +17,7 @@
 #include "cliff_scenes.h"
 #include "degenerate_scenes.h"
 #include "dense_operands.h"
+#include "record_scene.h"
 #include "shapes.h"
 
 namespace bench {
@@ -445,11 +446,30 @@ Scene following_scene(const std::string& scene, const std::vector<std::string>& 
     unknown(scene);
 }
 
+/// The union of statues with that of spheres.
+Scene record_scene(const std::string& scene, const std::vector<std::string>& words) {
+    if (words[1] != "record") unknown(scene);
+    std::size_t n = 100'000;
+    if (words.size() > 2) {
+        char* end = nullptr;
+        n = std::strtoul(words[2].c_str(), &end, 10);
+        if (*end != 0 || n == 0 || n > 1'000'000) unknown(scene);
+    }
+    Scene s;
+    s.operands = statues_and_spheres(
+        {model("large/armadillo.obj"), model("large/bunny100k.obj"), model("large/cow100K.obj")},
+        n);
+    s.first_group = statues_of_record;
+    s.operations = {Operation::Intersection, Operation::Difference};
+    return s;
+}
+
 Scene scene_of(const std::string& name) {
     const std::vector<std::string> words = words_of(name);
     if (words[0] == "cliff") return cliff_scene(words);
     if (words.size() < 2 || words.size() > 3) unknown(name);
     if (words[0] == "i") return following_scene(name, words);
+    if (words[0] == "q") return record_scene(name, words);
     if (words[0] == "c") return small_cut_scene(name, words);
     if (words[0] == "e") return milling_scene(name, words);
     if (words[0] == "h" && words.size() > 2 && words[2] == "halves") {

@@ -96,6 +96,9 @@ struct Scene {
 ///     axis h:stack16                     prisms of 200 sides, each on top of the one before
 ///     h:drills64 h:bores64          a plate less cylinders, flush with its upper side, or with
 ///     both h:slot64                      a plate less flush cylinders that overlap along a line
+///     q:record q:record:1000        six statues of 100k triangles with the union of 100,000
+///     spheres
+///                                   of 234 triangles, or another number (TRISECT_MODELS)
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
 [[nodiscard]] Scene make_scene(const std::string& name);

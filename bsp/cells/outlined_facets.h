@@ -23,6 +23,7 @@ struct OutlineVertex {
     std::array<std::uint32_t, 3> facets{};
     std::int8_t which = 0;
     Kind kind = Kind::Corner;
+    bool is_shared = false;  ///< with a part of its solid that has been set aside
 };
 
 /// The part of a facet that bounds a result, for any number of facets.

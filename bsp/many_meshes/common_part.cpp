@@ -49,8 +49,10 @@ public:
           segments_(meshes, exact_) {}
 
     [[nodiscard]] std::optional<Solid> of(const Solid& first, const Solid& second,
-                                          EvaluateStats& stats) {
+                                          EvaluateStats& stats, Known known) {
         start(first, second);
+        known_ = known;
+        first_known_ = second.vertices;
         if (!find_cuts(stats)) return std::nullopt;
         stops_.sort(store_.edges().size());
         for (std::size_t i = 0; i < 2; ++i) {
@@ -64,6 +66,10 @@ public:
     [[nodiscard]] OutlineStore& store() {
         store_.reserve(meshes_);
         return store_;
+    }
+    [[nodiscard]] bool is_open_at_corner(const OutlineVertex& corner,
+                                         const OutlinedSolid& solid) const {
+        return detail::is_open_at_corner(corner, solid, exact_);
     }
     [[nodiscard]] const SpecialPosition& special() const { return special_; }
 
@@ -105,6 +111,7 @@ private:
     [[nodiscard]] std::optional<bool> side_of_part(std::size_t solid, std::uint32_t root);
     void list_vertices(std::size_t solid);
     [[nodiscard]] bool mark_ends(std::size_t solid);
+    [[nodiscard]] bool mark_known(std::size_t solid);
     void mark_beyond(std::size_t solid);
     [[nodiscard]] Solid keep(const Solid& first, const Solid& second);
     void keep_parts(std::size_t solid, Solid& out, std::size_t& kept);
@@ -139,11 +146,13 @@ private:
     std::array<std::vector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
     std::array<Buckets<Cut>, 2> cuts_;                // by place
     VertexSides sides_;  // of vertices of facets that are near: of the other solid
+    Known known_;
+    std::size_t first_known_ = 0;  // that vertex of the store
     PoolVector<std::uint32_t> kept_made_;
 };
 
 void CommonPart::Steps::start(const Solid& first, const Solid& second) {
-    solids_ = {store_.view(first, second.facets), store_.view(second)};
+    solids_ = {store_.view(first, second), store_.view(second)};
     firsts_ = {first.facets, second.facets, store_.facets().size()};
     edges_ = {first.edges, second.edges, store_.edges().size()};
     segments_.start(solids_[0], solids_[1]);
@@ -297,6 +306,16 @@ bool CommonPart::Steps::mark_ends(std::size_t solid) {
     return true;
 }
 
+// Of the second solid.
+bool CommonPart::Steps::mark_known(std::size_t solid) {
+    if (solid == 0 || known_.empty()) return true;
+    for (const std::uint32_t v : sides_.listed())
+        if (const Side side = known_[v - first_known_];
+            side != Side::Unknown && !sides_.mark(v, side))
+            return false;
+    return true;
+}
+
 // What is surely beyond the other solid's box is far out.
 void CommonPart::Steps::mark_beyond(std::size_t solid) {
     const OutlinedSolid& s = solids_[solid];
@@ -308,7 +327,7 @@ void CommonPart::Steps::mark_beyond(std::size_t solid) {
 
 bool CommonPart::Steps::find_sides(std::size_t solid) {
     list_vertices(solid);
-    if (!mark_ends(solid)) return false;
+    if (!mark_ends(solid) || !mark_known(solid)) return false;
     mark_beyond(solid);
     for (const std::uint32_t v : sides_.listed())
         if (const Side side = sides_.of(v);
@@ -333,7 +352,7 @@ std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, std::uint
     if (const auto open = is_open_at(s.vertices[root].at, other, segments_, 1 - solid)) return open;
     for (const std::uint32_t v : sides_.listed())
         if (s.vertices[v].kind == OutlineVertex::Kind::Corner && sides_.root(v) == root)
-            return is_open_at_corner(s.vertices[v], other, exact_);
+            return is_open_at_corner(s.vertices[v], other);
     // None is left of them. Another vertex may be clear of the other solid's boundary.
     for (const std::uint32_t v : sides_.listed())
         if (v != root && sides_.root(v) == root)
@@ -460,11 +479,15 @@ CommonPart::~CommonPart() = default;
 
 const SpecialPosition& CommonPart::special() const { return steps_->special(); }
 
+bool CommonPart::is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid) const {
+    return steps_->is_open_at_corner(corner, solid);
+}
+
 OutlineStore& CommonPart::store() { return steps_->store(); }
 
 std::optional<OutlineStore::Solid> CommonPart::of(const Solid& first, const Solid& second,
-                                                  EvaluateStats& stats) {
-    if (first.box.meets(second.box)) return steps_->of(first, second, stats);
+                                                  EvaluateStats& stats, Known known) {
+    if (first.box.meets(second.box)) return steps_->of(first, second, stats, known);
     // Each is far out of the other one.
     OutlineStore& store = steps_->store();
     Solid out;

@@ -5,10 +5,12 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/many_meshes/outline_store.h>
 #include <trisect/bsp/many_meshes/special_position.h>
+#include <trisect/bsp/many_meshes/vertex_sides.h>
 
 namespace trisect::detail {
 
@@ -24,9 +26,15 @@ public:
     [[nodiscard]] OutlineStore& store();
     /// What the last two solids of the store both leave open, which takes their place. Nothing
     /// where sides are not known. O(n log n) where facets meet few others.
+    /// `known`: by vertex of the second one, the first one's side on which it is, as far as that is
+    /// known beforehand; empty where nothing is.
     using Solid = OutlineStore::Solid;
+    using Known = std::span<const VertexSides::Side>;
     [[nodiscard]] std::optional<Solid> of(const Solid& first, const Solid& second,
-                                          EvaluateStats& stats);
+                                          EvaluateStats& stats, Known known = {});
+    /// Whether the corner of an operand is in a set. \pre it is on no boundary of the set. O(n)
+    [[nodiscard]] bool is_open_at_corner(const OutlineVertex& corner,
+                                         const OutlinedSolid& solid) const;
     /// Of all so far.
     [[nodiscard]] const SpecialPosition& special() const;
 

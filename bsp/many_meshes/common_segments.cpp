@@ -35,10 +35,13 @@ FilteredPlane CommonSegments::plane(std::size_t solid, std::uint32_t place) {
     MadePlane& made = plane_of_[solid][place];
     if (made.turn == turn_) return planes_[made.number];
     made = {turn_, static_cast<std::uint32_t>(planes_.size())};
-    const OutlinedSolid::Facet& f = solids_[solid]->facets[place];
-    const std::uint32_t facet = f.number - meshes_.operands->operands[f.slot].first;
-    planes_.push_back(FilteredFacets::plane_of(meshes_.corners(f.slot, facet), meshes_.extent));
+    planes_.push_back(plane_of(solids_[solid]->facets[place]));
     return planes_.back();
+}
+
+FilteredPlane CommonSegments::plane_of(const OutlinedSolid::Facet& facet) const {
+    const std::uint32_t own = facet.number - meshes_.operands->operands[facet.slot].first;
+    return FilteredFacets::plane_of(meshes_.corners(facet.slot, own), meshes_.extent);
 }
 
 bool CommonSegments::find(const std::array<std::uint32_t, 2>& places,

@@ -43,6 +43,8 @@ public:
     [[nodiscard]] std::span<const CommonSegment> segments() const { return segments_; }
     /// Of one of the solids.
     [[nodiscard]] FilteredPlane plane(std::size_t solid, std::uint32_t place);
+    /// Of any facet.
+    [[nodiscard]] FilteredPlane plane_of(const OutlinedSolid::Facet& facet) const;
 
 private:
     /// Where an edge of a part meets the line of the crossing.

@@ -34,11 +34,15 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/divide/reference_points.h>
+#include <trisect/bsp/many_meshes/beside_boundary.h>
 #include <trisect/bsp/many_meshes/common_part.h>
+#include <trisect/bsp/many_meshes/decided_operands.h>
 #include <trisect/bsp/many_meshes/formula_reach.h>
 #include <trisect/bsp/many_meshes/operand_clusters.h>
 #include <trisect/bsp/many_meshes/outline_store.h>
+#include <trisect/bsp/many_meshes/settled_parts.h>
 #include <trisect/bsp/many_meshes/thin_facets.h>
+#include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
 
@@ -275,7 +279,10 @@ public:
     BalancedTree(const ManyMeshes& meshes, const SolidStates& solids,
                  const EvaluateSettings& options, bool parallel)
         : meshes_(meshes), solids_(solids), options_(options), parallel_(parallel) {
-        if (meshes.nested == nullptr) set_order();
+        if (meshes.nested == nullptr)
+            set_order();
+        else
+            set_terms();
     }
 
     // What all operands leave open together.
@@ -333,6 +340,50 @@ private:
         clusters_.clear();
         order_ = std::move(all);
     }
+    // Terms of nested operations. Where operands do not fill one place, neighbours among them come
+    // first, and those that others decide are left out.
+    void set_terms() {
+        const NestedFormula& nested = *meshes_.nested;
+        for (std::uint32_t n = 0; n < nested.size(); ++n) terms_.push_back(nested.node(n).terms);
+        if (crowd_of(solids_) == Crowd::All) return;
+        std::vector<std::uint8_t> open_far_out;
+        for (std::uint32_t i = 0; i < solids_.size(); ++i)
+            open_far_out.push_back(is_open_far(i) ? 1 : 0);
+        const std::vector<std::uint8_t> decided = decided_operands(meshes_, open_far_out);
+        boxes_ = boxes_of(solids_);
+        neighbours_.resize(terms_.size());
+        for (std::uint32_t n = 0; n < terms_.size(); ++n)
+            if (terms_[n].size() >= least_ordered) order_terms(n, decided, boxes_);
+    }
+    using Terms = std::vector<std::uint32_t>;
+    static constexpr std::size_t least_ordered = 32;
+    // Of fewer facets all are at hand.
+    static constexpr std::size_t least_with_settled = 2000;
+
+    // Operands first, or as neighbours.
+    void order_terms(std::uint32_t node, std::span<const std::uint8_t> decided,
+                     std::span<const Box> boxes) {
+        Terms& terms = terms_[node];
+        std::vector<std::uint32_t> slots;
+        Terms others;
+        for (const std::uint32_t t : terms) {
+            const std::int32_t slot = meshes_.nested->node(t).slot;
+            if (slot < 0)
+                others.push_back(t);
+            else if (decided[static_cast<std::size_t>(slot)] == 0)
+                slots.push_back(static_cast<std::uint32_t>(slot));
+        }
+        order_in_space(boxes, slots);
+        terms.clear();
+        for (const std::uint32_t s : slots) terms.push_back(meshes_.nested->leaf(s));
+        terms.insert(terms.end(), others.begin(), others.end());
+        const bool unites = meshes_.nested->node(node).unites;
+        if (std::ranges::any_of(slots, [&](std::uint32_t s) { return is_open_far(s) == unites; }))
+            return;
+        neighbours_[node] = std::move(slots);
+        terms = std::move(others);
+    }
+
     // A box with what all leave open together: other operands leave all of it open, or none if it
     // is empty.
     [[nodiscard]] std::optional<Box> reach_of(std::span<const Box> boxes) const {
@@ -388,23 +439,100 @@ private:
     [[nodiscard]] std::optional<Solid> of_node(std::uint32_t number, EvaluateStats& stats) const {
         const NestedFormula::Node& node = meshes_.nested->node(number);
         if (node.slot >= 0) return of_operand(static_cast<std::uint32_t>(node.slot));
-        std::optional<Solid> out = of_terms(node, 0, node.terms.size(), stats);
+        std::optional<Solid> out = of_node_with_settled(number, stats);
+        // What comes last takes parts as they are.
+        if (out && number != NestedFormula::root) join_settled(common().store(), *out);
+        return out;
+    }
+    [[nodiscard]] std::optional<Solid> of_node_with_settled(std::uint32_t number,
+                                                            EvaluateStats& stats) const {
+        const NestedFormula::Node& node = meshes_.nested->node(number);
+        std::optional<Solid> out =
+            has_neighbours(number) ? of_terms_and_neighbours(number, stats)
+            : has_one_of_neighbours(number)
+                ? of_boundary_and_neighbours(
+                      stats, [&](EvaluateStats& s) { return of_term(number, 0, s); },
+                      [&](EvaluateStats& s) { return of_term(number, 1, s); })
+                : of_terms(terms_[number], node.unites, stats);
         if (out && node.unites) out->open_far_out = !out->open_far_out;
         return out;
     }
+    // One of two terms, or its complement.
+    [[nodiscard]] std::optional<Solid> of_term(std::uint32_t number, std::size_t which,
+                                               EvaluateStats& stats) const {
+        const std::uint32_t term = terms_[number][which];
+        auto out = which == 0 ? of_node(term, stats) : of_node_with_settled(term, stats);
+        if (out && meshes_.nested->node(number).unites) out->open_far_out = !out->open_far_out;
+        return out;
+    }
+    [[nodiscard]] bool has_neighbours(std::uint32_t number) const {
+        return number < neighbours_.size() && !neighbours_[number].empty();
+    }
+    // Whether there are two terms, of which the second one is of neighbours alone.
+    [[nodiscard]] bool has_one_of_neighbours(std::uint32_t number) const {
+        const std::vector<std::uint32_t>& terms = terms_[number];
+        return terms.size() == 2 && has_neighbours(terms[1]) && terms_[terms[1]].empty();
+    }
+    [[nodiscard]] std::optional<Solid> of_terms_and_neighbours(std::uint32_t number,
+                                                               EvaluateStats& stats) const {
+        const auto of_those = [&](EvaluateStats& s) {
+            return of_neighbours(neighbours_[number], ClearBox(), s);
+        };
+        if (terms_[number].empty()) return of_those(stats);
+        const bool unites = meshes_.nested->node(number).unites;
+        return of_boundary_and_neighbours(
+            stats, [&](EvaluateStats& s) { return of_terms(terms_[number], unites, s); }, of_those);
+    }
+    // What a solid and many neighbours leave open; these with settled parts.
+    template <class Boundary, class Neighbours>
+    [[nodiscard]] std::optional<Solid> of_boundary_and_neighbours(
+        EvaluateStats& stats, const Boundary& boundary_by, const Neighbours& neighbours_by) const {
+        const auto [boundary, neighbours] =
+            both(parallel_facets, stats, boundary_by, neighbours_by);
+        if (!boundary || !neighbours) return std::nullopt;
+        BesideBoundary beside(common(), *boundary, *neighbours);
+        const Solid near = beside.take(parallel_ ? 0 : 1);
+        const std::optional<Solid> out = common().of(*boundary, near, stats, beside.known());
+        if (out) beside.drop(*out);
+        return out;
+    }
+    // Of operands in the order of space, or of their complements, each of which leaves open what is
+    // far out. With settled parts.
+    [[nodiscard]] std::optional<Solid> of_neighbours(Slots slots, const ClearBox& clear,
+                                                     EvaluateStats& stats) const {
+        if (slots.size() == 1) return common().store().add_operand(meshes_, slots[0], true);
+        const Slots first = slots.first(slots.size() / 2);
+        const Slots second = slots.subspan(slots.size() / 2);
+        const std::size_t facets = facets_of(slots);
+        std::optional<Solid> out = common_of(
+            facets, stats,
+            [&](EvaluateStats& s) {
+                const ClearBox rest = clear.without(boxes_, second, first);
+                return of_neighbours(first, rest, s);
+            },
+            [&](EvaluateStats& s) {
+                const ClearBox rest = clear.without(boxes_, first, second);
+                return of_neighbours(second, rest, s);
+            });
+        if (out && facets >= least_with_settled && slots.size() >= 8 && !clear.is_all())
+            settle(common().store(), *out, clear);
+        return out;
+    }
+
     // Of a union what is complement to all its terms.
-    [[nodiscard]] std::optional<Solid> of_terms(const NestedFormula::Node& node, std::size_t first,
-                                                std::size_t end, EvaluateStats& stats) const {
-        if (first + 1 == end) {
-            std::optional<Solid> out = of_node(node.terms[first], stats);
-            if (out && node.unites) out->open_far_out = !out->open_far_out;
+    [[nodiscard]] std::optional<Solid> of_terms(std::span<const std::uint32_t> terms, bool unites,
+                                                EvaluateStats& stats) const {
+        if (terms.empty()) return common().store().empty_solid(true);
+        if (terms.size() == 1) {
+            std::optional<Solid> out = of_node(terms[0], stats);
+            if (out && unites) out->open_far_out = !out->open_far_out;
             return out;
         }
-        const std::size_t middle = first + (end - first) / 2;
+        const std::size_t half = terms.size() / 2;
+        const std::size_t facets = facets_of_terms(terms);
         return common_of(
-            facets_of_terms(node, first, end), stats,
-            [&](EvaluateStats& s) { return of_terms(node, first, middle, s); },
-            [&](EvaluateStats& s) { return of_terms(node, middle, end, s); });
+            facets, stats, [&](EvaluateStats& s) { return of_terms(terms.first(half), unites, s); },
+            [&](EvaluateStats& s) { return of_terms(terms.subspan(half), unites, s); });
     }
 
     using Pair = std::pair<std::optional<Solid>, std::optional<Solid>>;
@@ -426,17 +554,17 @@ private:
     // Each comes from the store of the thread that made it.
     template <class Below, class Above>
     [[nodiscard]] Pair both_in_parallel(const Below& below_by, const Above& above_by) const {
-        using Taken = std::optional<std::pair<OutlineStore, Solid>>;
+        using Taken = std::optional<std::pair<SettledParts, Solid>>;
         Taken below;
         Taken above;
         const auto take = [&](const std::optional<Solid>& solid, Taken& to) {
-            if (solid) to = common().store().take_out(*solid);
+            if (solid) to.emplace(common().store().take_out(*solid), *solid);
         };
         both_at_once([&] { take(above_by(), above); }, [&] { take(below_by(), below); });
         if (!below || !above) return {};
         OutlineStore& store = common().store();
-        const Solid first = store.put(below->first, below->second);
-        return {first, store.put(above->first, above->second)};
+        const Solid first = store.put(std::move(below->first), below->second);
+        return {first, store.put(std::move(above->first), above->second)};
     }
     template <class Below, class Above>
     [[nodiscard]] std::optional<Solid> common_of(std::size_t facets, EvaluateStats& stats,
@@ -451,14 +579,13 @@ private:
         return common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); });
     }
 
-    [[nodiscard]] std::size_t facets_of_terms(const NestedFormula::Node& node, std::size_t first,
-                                              std::size_t end) const {
+    [[nodiscard]] std::size_t facets_of_terms(std::span<const std::uint32_t> terms) const {
         std::size_t n = 0;
-        for (std::size_t i = first; i < end; ++i) {
-            const NestedFormula::Node& term = meshes_.nested->node(node.terms[i]);
-            n += term.slot >= 0
-                     ? meshes_.sources[static_cast<std::size_t>(term.slot)]->facet_count()
-                     : facets_of_terms(term, 0, term.terms.size());
+        for (const std::uint32_t t : terms) {
+            const std::int32_t slot = meshes_.nested->node(t).slot;
+            n += slot >= 0 ? meshes_.sources[static_cast<std::size_t>(slot)]->facet_count()
+                           : facets_of_terms(terms_[t]);
+            if (slot < 0 && has_neighbours(t)) n += facets_of(neighbours_[t]);
         }
         return n;
     }
@@ -476,6 +603,11 @@ private:
     bool first_is_last_ = false;
     std::vector<std::uint32_t> order_;
     std::vector<std::vector<std::uint32_t>> clusters_;
+    // Of formulas that are nested, by node: its terms but neighbours, and the slots of these. Each
+    // of them, or its complement in a union, leaves open what is far out.
+    std::vector<std::vector<std::uint32_t>> terms_;
+    std::vector<std::vector<std::uint32_t>> neighbours_;
+    std::vector<Box> boxes_;
     mutable PerThread<CommonPart> common_;
 };
 
@@ -533,17 +665,21 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
     common.special.clear();
     for (std::uint32_t f = 0; f < facet_count; ++f)
         if (is_special[f] != 0) common.special.push_back(f);
+    const auto look = [&](const OutlinedSolid& part) {
+        for (const OutlinedSolid::Facet& f : part.facets) {
+            if (is_special[f.number] != 0) continue;
+            const auto edges = part.edges_of(f);
+            if (std::ranges::any_of(edges, [&](const OutlinedSolid::Edge& e) {
+                    const FacetCrossing* line = e.origin.line();
+                    return line != nullptr &&
+                           (is_special[line->facets[0]] != 0 || is_special[line->facets[1]] != 0);
+                }))
+                common.special.push_back(f.number);
+        }
+    };
     const OutlinedSolid solid = common.store.view({});
-    for (const OutlinedSolid::Facet& f : solid.facets) {
-        if (is_special[f.number] != 0) continue;
-        const auto edges = solid.edges_of(f);
-        if (std::ranges::any_of(edges, [&](const OutlinedSolid::Edge& e) {
-                const FacetCrossing* line = e.origin.line();
-                return line != nullptr &&
-                       (is_special[line->facets[0]] != 0 || is_special[line->facets[1]] != 0);
-            }))
-            common.special.push_back(f.number);
-    }
+    look(solid);
+    for (const auto& part : solid.settled) look(part->view());
     std::ranges::sort(common.special);
 }
 
@@ -588,75 +724,123 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
     }
 }
 
-// Groups of operands leave them in an order of their own.
-void sort_facets(PoolVector<OutlinedSolid::Facet>& facets) {
-    if (!std::ranges::is_sorted(facets, {}, &OutlinedSolid::Facet::number))
-        std::ranges::sort(facets, {}, &OutlinedSolid::Facet::number);
+using Parts = std::vector<OutlinedSolid>;
+
+// Settled ones, and what is not.
+Parts parts_of(const OutlineStore& store) {
+    Parts out;
+    const OutlinedSolid solid = store.view({});
+    for (const auto& part : solid.settled) out.push_back(part->view());
+    out.push_back(solid);
+    return out;
 }
 
-// For parts of facets, and those of their vertices that are wanted: most are of whole ones.
-void take_vertices(OutlinedFacets& outlined, const OutlinedSolid& solid) {
+// Those vertices of parts that are wanted: most are of whole facets.
+void take_vertices(OutlinedFacets& outlined, const Parts& parts) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
-    PoolVector<std::uint32_t> numbers(solid.vertices.size(), unused);
+    std::size_t all = 0;
+    for (const OutlinedSolid& p : parts) all += p.vertices.size();
+    PoolVector<std::uint32_t> numbers(all, unused);
     for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
-    std::uint32_t next = 0;
-    for (std::uint32_t& n : numbers)
-        if (n != unused) n = next++;
-    outlined.vertices.reserve(next);
-    for (std::size_t v = 0; v < numbers.size(); ++v)
-        if (numbers[v] != unused) outlined.vertices.push_back(solid.vertices[v]);
+    outlined.vertices.reserve(
+        static_cast<std::size_t>(std::ranges::count(numbers, std::uint32_t{0})));
+    FlatMap shared;
+    std::uint32_t* number = numbers.data();
+    const auto take = [&](const OutlineVertex& v) {
+        const auto next = static_cast<std::uint32_t>(outlined.vertices.size());
+        *number = next;
+        if (v.is_shared)
+            *number = static_cast<std::uint32_t>(
+                shared.insert(name_of(v), static_cast<std::int32_t>(next)).first);
+        if (*number == next) outlined.vertices.push_back(v);
+    };
+    for (const OutlinedSolid& p : parts)
+        for (const OutlineVertex& v : p.vertices) {
+            if (*number != unused) take(v);
+            ++number;
+        }
     for (OutlinedFacets::Edge& e : outlined.edges) {
         e.from = numbers[e.from];
         e.to = numbers[e.to];
     }
 }
 
-void reserve(OutlinedFacets& outlined, const OutlinedSolid& solid) {
-    std::size_t facets = 0;
-    std::size_t edges = 0;
-    for (const OutlinedSolid::Facet& f : solid.facets) {
-        facets += f.whole ? 0 : 1;
-        edges += f.whole ? 0 : f.count;
-    }
-    outlined.facets.reserve(facets);
-    outlined.edges.reserve(edges);
+// A facet of which there is a part.
+struct CutFacet {
+    std::uint32_t number = 0;
+    std::uint32_t slot = 0;
+    std::uint32_t part = 0;
+    std::uint32_t first = 0;  // of its edges
+    std::uint32_t count = 0;
+};
+
+// Whole ones go to their operands. Groups of operands leave all in an order of their own.
+PoolVector<CutFacet> sort_facets(const Parts& parts, const Crossings& operands,
+                                 UndividedMeshes& out) {
+    PoolVector<CutFacet> cut;
+    std::size_t count = 0;
+    for (const OutlinedSolid& p : parts)
+        count += static_cast<std::size_t>(
+            std::ranges::count(p.facets, false, &OutlinedSolid::Facet::whole));
+    cut.reserve(count);
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+        for (const OutlinedSolid::Facet& f : parts[i].facets)
+            if (f.whole)
+                out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
+            else
+                cut.push_back({f.number, f.slot, i, f.first, f.count});
+    for (UncrossedFacets& u : out.uncrossed)
+        if (!std::ranges::is_sorted(u.facets)) std::ranges::sort(u.facets);
+    if (!std::ranges::is_sorted(cut, {}, &CutFacet::number))
+        std::ranges::sort(cut, {}, &CutFacet::number);
+    return cut;
 }
 
-// By what assembly needs.
-UndividedMeshes form_of(OutlineStore& store, const ManyMeshes& meshes, const Crossings& operands,
-                        std::shared_ptr<const LazyTree> tree) {
-    UndividedMeshes out;
-    for (std::size_t i = 0; i < meshes.sources.size(); ++i)
-        out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
-    auto outlined = std::make_shared<OutlinedFacets>();
-    sort_facets(store.facets());
-    const OutlinedSolid solid = store.view({});
-    reserve(*outlined, solid);
+// With vertices by their numbers among those of all parts.
+void add_cut_facets(OutlinedFacets& outlined, const Parts& parts, std::span<const CutFacet> cut,
+                    const ManyMeshes& meshes) {
+    std::size_t edges = 0;
+    for (const CutFacet& f : cut) edges += f.count;
+    outlined.facets.reserve(cut.size());
+    outlined.edges.reserve(edges);
+    std::vector<std::uint32_t> first_vertices{0};
+    for (const OutlinedSolid& p : parts)
+        first_vertices.push_back(first_vertices.back() +
+                                 static_cast<std::uint32_t>(p.vertices.size()));
     // Lines lie anywhere in memory.
     constexpr std::size_t ahead = 12;
-    const auto look_ahead = [&](std::size_t e) {
-        if (e + ahead < solid.edges.size())
-            __builtin_prefetch(solid.edges[e + ahead].origin.line());
+    const auto look_ahead = [](std::span<const OutlinedSolid::Edge> of_part, std::size_t e) {
+        if (e + ahead < of_part.size()) __builtin_prefetch(of_part[e + ahead].origin.line());
     };
-    for (const OutlinedSolid::Facet& f : solid.facets) {
-        if (f.whole) {
-            out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
-            continue;
-        }
-        outlined->facets.push_back(
-            {f.number, static_cast<std::uint32_t>(outlined->edges.size()), f.count});
-        std::size_t number = f.first;
-        for (const OutlinedSolid::Edge& e : solid.edges_of(f)) {
-            look_ahead(number++);
+    for (const CutFacet& f : cut) {
+        outlined.facets.push_back(
+            {f.number, static_cast<std::uint32_t>(outlined.edges.size()), f.count});
+        const std::span<const OutlinedSolid::Edge> of_part = parts[f.part].edges;
+        const std::uint32_t vertex = first_vertices[f.part];
+        for (std::size_t i = f.first; i < std::size_t{f.first} + f.count; ++i) {
+            look_ahead(of_part, i);
+            const OutlinedSolid::Edge& e = of_part[i];
             const FacetCrossing* line = e.origin.line();
             const std::uint32_t cutter =
                 line == nullptr ? 0 : line->facets[line->facets[0] == f.number ? 1 : 0];
             const std::uint32_t cutter_slot = meshes.slot_of(cutter);
             const bool open_below = line != nullptr && meshes.is_open_below(cutter_slot, f.slot);
-            outlined->edges.push_back({e.from, e.to, cutter, e.origin.own(), open_below});
+            outlined.edges.push_back(
+                {vertex + e.from, vertex + e.to, cutter, e.origin.own(), open_below});
         }
     }
-    take_vertices(*outlined, solid);
+}
+
+// By what assembly needs.
+UndividedMeshes form_of(const OutlineStore& store, const ManyMeshes& meshes,
+                        const Crossings& operands, std::shared_ptr<const LazyTree> tree) {
+    UndividedMeshes out;
+    for (std::size_t i = 0; i < meshes.sources.size(); ++i)
+        out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
+    auto outlined = std::make_shared<OutlinedFacets>();
+    const Parts parts = parts_of(store);
+    add_cut_facets(*outlined, parts, sort_facets(parts, operands, out), meshes);
+    take_vertices(*outlined, parts);
     out.outlined = std::move(outlined);
     out.crossings = std::make_shared<const Crossings>(operands);
     out.tree = std::move(tree);

@@ -32,7 +32,9 @@ public:
                                                            std::size_t slots);
 
     [[nodiscard]] const Node& node(std::uint32_t number) const { return nodes_[number]; }
+    [[nodiscard]] std::size_t size() const { return nodes_.size(); }
     static constexpr std::uint32_t root = 0;
+    [[nodiscard]] std::uint32_t leaf(std::size_t slot) const { return leaves_[slot]; }
     /// Whether the operand is not complemented.
     [[nodiscard]] bool is_positive(std::size_t slot) const { return positive_[slot] != 0; }
     /// Whether it is intersected with another operand that is not complemented.

@@ -17,18 +17,20 @@ OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
     out.facets = facets_.size();
     out.edges = edges_.size();
     out.vertices = vertices_.size();
+    out.settled = settled_.size();
     out.open_far_out = open_far_out;
     return out;
 }
 
-OutlinedSolid OutlineStore::view(const Solid& solid, std::size_t end) const {
+OutlinedSolid OutlineStore::view(const Solid& solid, const Solid& next) const {
     OutlinedSolid out;
-    const std::size_t count = end - solid.facets;
+    const std::size_t count = next.facets - solid.facets;
     out.facets = std::span(facets_).subspan(solid.facets, count);
     out.boxes = std::span(boxes_).subspan(solid.facets, count);
     out.edges = edges_;
     out.vertices = vertices_;
     out.box = solid.box;
+    out.settled = std::span(settled_).subspan(solid.settled, next.settled - solid.settled);
     out.open_far_out = solid.open_far_out;
     return out;
 }
@@ -64,42 +66,48 @@ void OutlineStore::cut_off(const Solid& solid) {
     boxes_.resize(solid.facets);
     edges_.resize(solid.edges);
     vertices_.resize(solid.vertices);
+    settled_.resize(solid.settled);
 }
 
-std::pair<OutlineStore, OutlineStore::Solid> OutlineStore::take_out(const Solid& solid) {
-    OutlineStore out;
-    out.facets_.reserve(facets_.size() - solid.facets);
-    out.boxes_.reserve(facets_.size() - solid.facets);
-    out.edges_.reserve(edges_.size() - solid.edges);
-    out.vertices_.reserve(vertices_.size() - solid.vertices);
+SettledParts OutlineStore::take_out(const Solid& solid) {
+    SettledParts out;
+    for (std::size_t i = solid.settled; i < settled_.size(); ++i)
+        out.push_back(std::move(settled_[i]));
+    SettledPart& rest = *out.emplace_back(std::make_unique<SettledPart>());
+    rest.facets.reserve(facets_.size() - solid.facets);
+    rest.boxes.reserve(facets_.size() - solid.facets);
+    rest.edges.reserve(edges_.size() - solid.edges);
+    rest.vertices.reserve(vertices_.size() - solid.vertices);
+    rest.box = solid.box;
     const auto end_of = [](auto& items, std::size_t first) {
         return std::span(items).subspan(first);
     };
     const auto vertex = static_cast<std::uint32_t>(solid.vertices);
     const auto edge = static_cast<std::uint32_t>(solid.edges);
     for (const Facet& f : end_of(facets_, solid.facets))
-        out.facets_.push_back({f.number, f.slot, f.first - edge, f.count, f.whole});
-    for (const OutlineBox& b : end_of(boxes_, solid.facets)) out.boxes_.push_back(b);
+        rest.facets.push_back({f.number, f.slot, f.first - edge, f.count, f.whole});
+    for (const OutlineBox& b : end_of(boxes_, solid.facets)) rest.boxes.push_back(b);
     for (const Edge& e : end_of(edges_, solid.edges))
-        out.edges_.push_back({e.from - vertex, e.to - vertex, e.origin});
-    for (const OutlineVertex& v : end_of(vertices_, solid.vertices)) out.vertices_.push_back(v);
+        rest.edges.push_back({e.from - vertex, e.to - vertex, e.origin});
+    for (const OutlineVertex& v : end_of(vertices_, solid.vertices)) rest.vertices.push_back(v);
     cut_off(solid);
-    Solid alone = solid;
-    alone.facets = alone.edges = alone.vertices = 0;
-    return {std::move(out), alone};
+    return out;
 }
 
-OutlineStore::Solid OutlineStore::put(const OutlineStore& store, const Solid& solid) {
+OutlineStore::Solid OutlineStore::put(SettledParts parts, const Solid& solid) {
     Solid out = empty_solid(solid.open_far_out);
     out.unused_edges = solid.unused_edges;
     out.box = solid.box;
     const auto vertex = static_cast<std::uint32_t>(out.vertices);
     const auto edge = static_cast<std::uint32_t>(out.edges);
-    for (const Facet& f : store.facets_)
+    const std::unique_ptr<SettledPart> rest = std::move(parts.back());
+    parts.pop_back();
+    for (const Facet& f : rest->facets)
         facets_.push_back({f.number, f.slot, f.first + edge, f.count, f.whole});
-    boxes_.insert(boxes_.end(), store.boxes_.begin(), store.boxes_.end());
-    for (const Edge& e : store.edges_) edges_.push_back({e.from + vertex, e.to + vertex, e.origin});
-    vertices_.insert(vertices_.end(), store.vertices_.begin(), store.vertices_.end());
+    boxes_.insert(boxes_.end(), rest->boxes.begin(), rest->boxes.end());
+    for (const Edge& e : rest->edges) edges_.push_back({e.from + vertex, e.to + vertex, e.origin});
+    vertices_.insert(vertices_.end(), rest->vertices.begin(), rest->vertices.end());
+    for (auto& part : parts) settled_.push_back(std::move(part));
     return out;
 }
 
@@ -129,10 +137,12 @@ OutlineStore::Solid OutlineStore::second_only(const Solid& first, const Solid& s
     };
     move_down(facets_, first.facets, second.facets);
     move_down(boxes_, first.facets, second.facets);
+    move_down(settled_, first.settled, second.settled);
     Solid out = second;
     out.facets = first.facets;
     out.edges = first.edges;
     out.vertices = first.vertices;
+    out.settled = first.settled;
     out.unused_edges += second.edges - first.edges;
     tidy(out);
     return out;

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/settled_part.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
@@ -24,6 +26,7 @@ public:
         std::size_t facets = 0;
         std::size_t edges = 0;
         std::size_t vertices = 0;
+        std::size_t settled = 0;
         std::size_t unused_edges = 0;  ///< those that no facet has
         OutlineBox box = OutlineBox::none();
         bool open_far_out = false;
@@ -38,15 +41,21 @@ public:
     [[nodiscard]] Solid add_operand(const ManyMeshes& meshes, std::uint32_t slot,
                                     bool open_far_out);
     [[nodiscard]] OutlinedSolid view(const Solid& solid) const {
-        return view(solid, facets_.size());
+        return view(solid, empty_solid(true));
     }
-    /// Of one whose facets end there.
-    [[nodiscard]] OutlinedSolid view(const Solid& solid, std::size_t end) const;
+    /// Of one that ends where the next one begins.
+    [[nodiscard]] OutlinedSolid view(const Solid& solid, const Solid& next) const;
 
-    /// Takes the last solid out, into a store of its own: then it is the only one there.
-    [[nodiscard]] std::pair<OutlineStore, Solid> take_out(const Solid& solid);
+    /// Takes the last solid out: its settled parts, and behind them what is not settled.
+    [[nodiscard]] SettledParts take_out(const Solid& solid);
     /// Adds such a one.
-    [[nodiscard]] Solid put(const OutlineStore& store, const Solid& solid);
+    [[nodiscard]] Solid put(SettledParts parts, const Solid& solid);
+    /// To the last solid, from whose facets it is gone.
+    void add_settled(std::unique_ptr<SettledPart> part) { settled_.push_back(std::move(part)); }
+    /// Of a solid. \pre the last one
+    [[nodiscard]] std::span<const std::unique_ptr<SettledPart>> settled(const Solid& solid) const {
+        return std::span(settled_).subspan(solid.settled);
+    }
 
     // Of the last two solids. One is left.
     [[nodiscard]] Solid united_apart(const Solid& first, const Solid& second) const;
@@ -78,6 +87,7 @@ private:
     PoolVector<OutlineBox> boxes_;
     PoolVector<Edge> edges_;
     PoolVector<OutlineVertex> vertices_;
+    SettledParts settled_;
     Lines lines_;
     PoolVector<Edge> tidy_edges_;
     PoolVector<std::uint32_t> numbers_;  // of vertices, when they are tidied up

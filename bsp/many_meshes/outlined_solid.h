@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -116,6 +117,8 @@ struct OutlineBox {
     }
 };
 
+struct SettledPart;
+
 /// The set that all of some operands leave open (see Crossings). What bounds it is parts of their
 /// facets: whole ones, and others by their outlines. All of it is in an OutlineStore, and good
 /// until that changes.
@@ -138,6 +141,8 @@ struct OutlinedSolid {
     std::span<const Edge> edges;              ///< those of other solids, too
     std::span<const OutlineVertex> vertices;  ///< as well
     OutlineBox box = OutlineBox::none();      ///< of all
+    /// More of the boundary, which nothing will meet any more (settled_parts.h).
+    std::span<const std::unique_ptr<SettledPart>> settled;
     bool open_far_out = false;
 
     [[nodiscard]] std::span<const Edge> edges_of(const Facet& f) const {

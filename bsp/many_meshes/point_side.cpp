@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include <trisect/bsp/many_meshes/settled_part.h>
 #include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
@@ -83,13 +84,20 @@ private:
 std::optional<bool> passes_odd(const AxisRay& ray, const OutlinedSolid& solid,
                                CommonSegments& planes, std::size_t number) {
     bool odd = false;
-    if (!ray.may_meet(solid.box)) return odd;
-    for (std::uint32_t f = 0; f < solid.facets.size(); ++f) {
-        if (!ray.may_meet(solid.boxes[f])) continue;
-        const std::optional<bool> met = ray.meets(solid, solid.facets[f], planes.plane(number, f));
-        if (!met) return std::nullopt;
-        odd = odd != *met;
-    }
+    const auto pass = [&](const OutlinedSolid& part, const auto& plane_of) {
+        if (!ray.may_meet(part.box)) return true;
+        for (std::uint32_t f = 0; f < part.facets.size(); ++f) {
+            if (!ray.may_meet(part.boxes[f])) continue;
+            const std::optional<bool> met = ray.meets(part, part.facets[f], plane_of(f));
+            if (!met) return false;
+            odd = odd != *met;
+        }
+        return true;
+    };
+    if (!pass(solid, [&](std::uint32_t f) { return planes.plane(number, f); })) return std::nullopt;
+    for (const auto& part : solid.settled)
+        if (!pass(part->view(), [&](std::uint32_t f) { return planes.plane_of(part->facets[f]); }))
+            return std::nullopt;
     return odd;
 }
 
@@ -145,11 +153,15 @@ private:
 
 bool is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid,
                        const ShiftedPoints& exact) {
-    const ExactRay ray(corner, solid, exact);
     bool odd = false;
-    if (ray.may_meet(solid.box))
-        for (std::uint32_t f = 0; f < solid.facets.size(); ++f)
-            if (ray.may_meet(solid.boxes[f])) odd = odd != ray.meets(solid.facets[f]);
+    const auto pass = [&](const OutlinedSolid& part) {
+        const ExactRay ray(corner, part, exact);
+        if (!ray.may_meet(part.box)) return;
+        for (std::uint32_t f = 0; f < part.facets.size(); ++f)
+            if (ray.may_meet(part.boxes[f])) odd = odd != ray.meets(part.facets[f]);
+    };
+    pass(solid);
+    for (const auto& part : solid.settled) pass(part->view());
     return solid.open_far_out != odd;
 }
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// SettledPart: a part of the boundary of an outlined solid, by itself.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/kernel/support/pool_allocator.h>
+
+namespace trisect::detail {
+
+/// It has vertices and edges of its own, so it can go from one OutlineStore to another as it is.
+/// Vertices that the solid has elsewhere, too, are shared ones.
+struct SettledPart {
+    PoolVector<OutlinedSolid::Facet> facets;
+    PoolVector<OutlineBox> boxes;
+    PoolVector<OutlinedSolid::Edge> edges;
+    PoolVector<OutlineVertex> vertices;
+    OutlineBox box = OutlineBox::none();
+
+    /// Good until the part changes.
+    [[nodiscard]] OutlinedSolid view() const {
+        OutlinedSolid out;
+        out.facets = facets;
+        out.boxes = boxes;
+        out.edges = edges;
+        out.vertices = vertices;
+        out.box = box;
+        out.open_far_out = true;
+        return out;
+    }
+};
+
+using SettledParts = std::vector<std::unique_ptr<SettledPart>>;
+
+}  // namespace trisect::detail

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// In a balanced tree of neighbours each level would look at all facets, and copy half of them,
+// though only those beside the boundary between two halves can meet anything. A facet in a clear
+// box can not. Nor is a point out of the clear box, and beyond the box of what is not settled,
+// within the solid: a ray from there along an axis goes by both boxes.
+
+#include <trisect/bsp/many_meshes/settled_parts.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace trisect::detail {
+
+namespace {
+
+// Of a position in lattice units: more than what lies between, rounded.
+constexpr double margin = 4;
+
+// So many facets, and such a part of all, are worth a step.
+constexpr std::size_t least_settled = 256;
+constexpr std::size_t least_part = 8;
+
+// A copy of facets of a solid, with those vertices that they have.
+class PartCopy {
+public:
+    // For so many facets and edges.
+    PartCopy(const OutlineStore& store, const OutlineStore::Solid& solid, std::size_t facets,
+             std::size_t edges)
+        : solid_(store.view(solid)),
+          first_vertex_(static_cast<std::uint32_t>(solid.vertices)),
+          numbers_(solid_.vertices.size() - solid.vertices, none),
+          part_(std::make_unique<SettledPart>()) {
+        part_->facets.reserve(facets);
+        part_->boxes.reserve(facets);
+        part_->edges.reserve(edges);
+        part_->vertices.reserve(std::min(numbers_.size(), edges / 4));
+    }
+    void add(std::size_t place) {
+        const OutlinedSolid::Facet& f = solid_.facets[place];
+        const auto first = static_cast<std::uint32_t>(part_->edges.size());
+        for (const OutlinedSolid::Edge& e : solid_.edges_of(f))
+            part_->edges.push_back({number(e.from), number(e.to), e.origin});
+        part_->facets.push_back({f.number, f.slot, first, f.count, f.whole});
+        part_->boxes.push_back(solid_.boxes[place]);
+        part_->box.add(solid_.boxes[place]);
+    }
+    // Of a vertex of the solid, if the part has it; else null.
+    [[nodiscard]] OutlineVertex* vertex(std::uint32_t v) {
+        const std::uint32_t number = numbers_[v - first_vertex_];
+        return number == none ? nullptr : &part_->vertices[number];
+    }
+    [[nodiscard]] std::unique_ptr<SettledPart> take() { return std::move(part_); }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    [[nodiscard]] std::uint32_t number(std::uint32_t vertex) {
+        std::uint32_t& number = numbers_[vertex - first_vertex_];
+        if (number == none) {
+            number = static_cast<std::uint32_t>(part_->vertices.size());
+            part_->vertices.push_back(solid_.vertices[vertex]);
+        }
+        return number;
+    }
+
+    OutlinedSolid solid_;
+    std::uint32_t first_vertex_;
+    PoolVector<std::uint32_t> numbers_;  // by vertex of the solid
+    std::unique_ptr<SettledPart> part_;
+};
+
+// Facets that do not go with the part move to the front.
+void leave_out(OutlineStore& store, OutlineStore::Solid& solid,
+               std::span<const std::uint8_t> settles, PartCopy& part) {
+    solid.box = OutlineBox::none();
+    std::size_t left = solid.facets;
+    for (std::size_t f = 0; f < settles.size(); ++f) {
+        const OutlinedSolid::Facet facet = store.facets()[solid.facets + f];
+        if (settles[f] != 0) {
+            solid.unused_edges += facet.count;
+            continue;
+        }
+        for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
+            const std::uint32_t v = store.edge(e).from;
+            if (OutlineVertex* const settled = part.vertex(v); settled != nullptr)
+                settled->is_shared = store.vertices()[v].is_shared = true;
+        }
+        solid.box.add(store.boxes()[solid.facets + f]);
+        store.facets()[left] = facet;
+        store.boxes()[left] = store.boxes()[solid.facets + f];
+        ++left;
+    }
+    store.facets().resize(left);
+    store.boxes().resize(left);
+}
+
+}  // namespace
+
+Key128 name_of(const OutlineVertex& v) {
+    const auto kind = static_cast<std::uint64_t>(v.kind);
+    const auto which = static_cast<std::uint64_t>(v.which);
+    return {std::uint64_t{v.facets[0]} << 32U | v.facets[1],
+            std::uint64_t{v.facets[2]} << 32U | which << 8U | kind};
+}
+
+ClearBox::ClearBox() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    lo_.fill(-infinity);
+    hi_.fill(infinity);
+}
+
+bool ClearBox::is_all() const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k)
+        if (lo_[k] != -infinity || hi_[k] != infinity) return false;
+    return true;
+}
+
+bool ClearBox::has(const OutlineBox& box) const {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(lo_[k] < box.lo[k] && box.hi[k] < hi_[k])) return false;
+    return true;
+}
+
+// Any one plane across an axis that has all of `those` on one side serves; the one that leaves most
+// of the own box is taken.
+ClearBox ClearBox::without(std::span<const Box> boxes, std::span<const std::uint32_t> those,
+                           std::span<const std::uint32_t> own) const {
+    Box mine;
+    Box begins;  // where boxes begin, from the first to the last
+    Box ends;
+    const auto add = [](Box& box, const std::array<std::int64_t, 3>& at) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            box.lo[k] = std::min(box.lo[k], at[k]);
+            box.hi[k] = std::max(box.hi[k], at[k]);
+        }
+    };
+    for (const std::uint32_t s : own) mine.add(boxes[s]);
+    for (const std::uint32_t s : those) {
+        add(begins, boxes[s].lo);
+        add(ends, boxes[s].hi);
+    }
+    ClearBox out = *this;
+    double best = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto low = static_cast<double>(mine.lo[k]);
+        const auto high = static_cast<double>(mine.hi[k]);
+        const double length = high - low + 1;
+        const double below = static_cast<double>(begins.lo[k]) - margin;
+        const double above = static_cast<double>(ends.hi[k]) + margin;
+        for (const bool is_below : {true, false}) {
+            const double left = (is_below ? below - low : high - above) / length;
+            if (left <= best) continue;
+            best = left;
+            out = *this;
+            if (is_below)
+                out.hi_[k] = std::min(out.hi_[k], below);
+            else
+                out.lo_[k] = std::max(out.lo_[k], above);
+        }
+    }
+    return out;
+}
+
+void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& clear) {
+    const OutlinedSolid all = store.view(solid);
+    PoolVector<std::uint8_t> settles(all.facets.size());
+    std::size_t facets = 0;
+    std::size_t edges = 0;
+    for (std::size_t f = 0; f < settles.size(); ++f) {
+        if (!clear.has(all.boxes[f])) continue;
+        settles[f] = 1;
+        ++facets;
+        edges += all.facets[f].count;
+    }
+    if (facets < std::max(least_settled, settles.size() / least_part)) return;
+    PartCopy part(store, solid, facets, edges);
+    for (std::size_t f = 0; f < settles.size(); ++f)
+        if (settles[f] != 0) part.add(f);
+    leave_out(store, solid, settles, part);
+    store.add_settled(part.take());
+    store.tidy(solid);
+}
+
+void JoinedParts::reserve(std::size_t facets, std::size_t edges, std::size_t vertices) {
+    const auto reserve_more = [](auto& items, std::size_t more) {
+        if (items.size() + more > items.capacity()) items.reserve(items.size() + more);
+    };
+    reserve_more(store_.facets(), facets);
+    reserve_more(store_.boxes(), facets);
+    reserve_more(store_.edges(), edges);
+    reserve_more(store_.vertices(), vertices);
+}
+
+void JoinedParts::begin(const SettledPart& part) { numbers_.assign(part.vertices.size(), none); }
+
+void JoinedParts::add(const SettledPart& part, std::size_t place) {
+    const OutlinedSolid::Facet& f = part.facets[place];
+    PoolVector<OutlinedSolid::Edge>& edges = store_.edges();
+    const auto first = static_cast<std::uint32_t>(edges.size());
+    for (std::uint32_t i = f.first; i < f.first + f.count; ++i) {
+        const OutlinedSolid::Edge& e = part.edges[i];
+        edges.push_back({number(part, e.from), number(part, e.to), e.origin});
+    }
+    store_.facets().push_back({f.number, f.slot, first, f.count, f.whole});
+    store_.boxes().push_back(part.boxes[place]);
+    solid_.box.add(part.boxes[place]);
+}
+
+std::uint32_t JoinedParts::number(const SettledPart& part, std::uint32_t vertex) {
+    std::uint32_t& number = numbers_[vertex];
+    if (number != none) return number;
+    const OutlineVertex& v = part.vertices[vertex];
+    PoolVector<OutlineVertex>& vertices = store_.vertices();
+    number = static_cast<std::uint32_t>(vertices.size());
+    if (v.is_shared)
+        number = static_cast<std::uint32_t>(
+            shared_.insert(name_of(v), static_cast<std::int32_t>(number)).first);
+    if (number == vertices.size()) vertices.push_back(v);
+    return number;
+}
+
+void join_settled(OutlineStore& store, OutlineStore::Solid& solid) {
+    if (store.settled(solid).empty()) return;
+    SettledParts parts = store.take_out(solid);
+    std::size_t facets = 0;
+    std::size_t edges = 0;
+    std::size_t vertices = 0;
+    for (const auto& p : parts) {
+        facets += p->facets.size();
+        edges += p->edges.size();
+        vertices += p->vertices.size();
+    }
+    JoinedParts joined(store);
+    joined.reserve(facets, edges, vertices);
+    for (auto& p : parts) {
+        joined.begin(*p);
+        for (std::size_t f = 0; f < p->facets.size(); ++f) joined.add(*p, f);
+        p.reset();
+    }
+    const bool open_far_out = solid.open_far_out;
+    solid = joined.solid();
+    solid.open_far_out = open_far_out;
+}
+
+}  // namespace trisect::detail

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Settled parts of outlined solids, out of reach of all others.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <trisect/bsp/cells/cell.h>
+#include <trisect/bsp/many_meshes/outline_store.h>
+#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/settled_part.h>
+#include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/pool_allocator.h>
+
+namespace trisect::detail {
+
+/// A box that the boxes of all operands still to come do not meet; at first all of space.
+class ClearBox {
+public:
+    ClearBox();
+    /// With others to come. \pre none of `those` is empty
+    [[nodiscard]] ClearBox without(std::span<const Box> boxes, std::span<const std::uint32_t> those,
+                                   std::span<const std::uint32_t> own) const;
+    [[nodiscard]] bool has(const OutlineBox& box) const;
+    /// Whether nothing is to come.
+    [[nodiscard]] bool is_all() const;
+
+private:
+    std::array<double, 3> lo_{};
+    std::array<double, 3> hi_{};
+};
+
+/// The same for all copies of a vertex, and for no other one.
+[[nodiscard]] Key128 name_of(const OutlineVertex& v);
+
+/// Makes a solid of parts of one, behind all others of a store: each shared vertex once.
+class JoinedParts {
+public:
+    explicit JoinedParts(OutlineStore& store) : store_(store), solid_(store.empty_solid(true)) {}
+    /// For so many more.
+    void reserve(std::size_t facets, std::size_t edges, std::size_t vertices);
+    /// The part of which facets follow.
+    void begin(const SettledPart& part);
+    void add(const SettledPart& part, std::size_t place);
+    /// What was made.
+    [[nodiscard]] const OutlineStore::Solid& solid() const { return solid_; }
+
+private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    [[nodiscard]] std::uint32_t number(const SettledPart& part, std::uint32_t vertex);
+
+    OutlineStore& store_;
+    OutlineStore::Solid solid_;
+    FlatMap shared_;
+    PoolVector<std::uint32_t> numbers_;  // by vertex of the part
+};
+
+/// Moves facets of the last solid that are within a box out of the way, to its settled parts,
+/// unless they are few. All operands that are still to come leave open what is far out; so these
+/// facets stay as they are. Vertices that others share with them become shared ones. O(n)
+void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& clear);
+
+/// Puts all parts of the last solid back, each vertex once. O(n)
+void join_settled(OutlineStore& store, OutlineStore::Solid& solid);
+
+}  // namespace trisect::detail
