@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include <trisect/bsp/many_meshes/settled_parts.h>
+#include <trisect/bsp/many_meshes/outlines/settled_parts.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/boundary_cells.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 #include <trisect/bsp/many_meshes/common_part.h>
-#include <trisect/bsp/many_meshes/outline_store.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
-#include <trisect/bsp/many_meshes/settled_part.h>
+#include <trisect/bsp/many_meshes/outlines/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/settled_part.h>
 #include <trisect/bsp/many_meshes/vertex_sides.h>
 #include <trisect/kernel/support/pool_allocator.h>
 

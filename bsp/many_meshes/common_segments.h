@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>

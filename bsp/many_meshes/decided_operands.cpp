@@ -11,7 +11,7 @@
 #include <utility>
 
 #include <trisect/bsp/cells/source.h>
-#include <trisect/bsp/many_meshes/boundary_cells.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 
 namespace trisect::detail {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 
 namespace trisect::detail {
 

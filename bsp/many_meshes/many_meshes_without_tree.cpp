@@ -39,8 +39,8 @@
 #include <trisect/bsp/many_meshes/decided_operands.h>
 #include <trisect/bsp/many_meshes/formula_reach.h>
 #include <trisect/bsp/many_meshes/operand_clusters.h>
-#include <trisect/bsp/many_meshes/outline_store.h>
-#include <trisect/bsp/many_meshes/settled_parts.h>
+#include <trisect/bsp/many_meshes/outlines/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/settled_parts.h>
 #include <trisect/bsp/many_meshes/thin_facets.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include <trisect/bsp/many_meshes/settled_part.h>
+#include <trisect/bsp/many_meshes/outlines/settled_part.h>
 #include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <trisect/bsp/many_meshes/common_segments.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
 
 namespace trisect::detail {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/crossings.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/special_position.h>
 #include <trisect/kernel/support/flat_map.h>
 

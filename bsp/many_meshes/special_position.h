@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/operand_shifts.h>
+#include <trisect/bsp/many_meshes/outlines/operand_shifts.h>
 
 namespace trisect::detail {
 

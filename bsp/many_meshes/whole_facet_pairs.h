@@ -12,7 +12,7 @@
 #include <trisect/bsp/leaf/doubles/box_rows.h>
 #include <trisect/bsp/leaf/doubles/facet_rows.h>
 #include <trisect/bsp/leaf/doubles/triangle_relation.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 
 namespace trisect::detail {
 

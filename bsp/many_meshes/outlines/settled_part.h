@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/many_meshes/nested_formula.h>
+#include <trisect/bsp/many_meshes/outlines/nested_formula.h>
 
 #include <algorithm>
 

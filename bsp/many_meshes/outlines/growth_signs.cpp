@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/many_meshes/growth_signs.h>
+#include <trisect/bsp/many_meshes/outlines/growth_signs.h>
 
 #include <utility>
 

@@ -9,9 +9,9 @@
 #include <span>
 
 #include <trisect/bsp/cells/cell.h>
-#include <trisect/bsp/many_meshes/outline_store.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
-#include <trisect/bsp/many_meshes/settled_part.h>
+#include <trisect/bsp/many_meshes/outlines/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/settled_part.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>
 

@@ -7,7 +7,7 @@
 // order along each axis has to be right. Orders are found by taking out what nothing has to be
 // before.
 
-#include <trisect/bsp/many_meshes/operand_shifts.h>
+#include <trisect/bsp/many_meshes/outlines/operand_shifts.h>
 
 #include <algorithm>
 #include <functional>
@@ -15,7 +15,7 @@
 #include <queue>
 #include <utility>
 
-#include <trisect/bsp/many_meshes/growth_signs.h>
+#include <trisect/bsp/many_meshes/outlines/growth_signs.h>
 
 namespace trisect::detail {
 

@@ -3,7 +3,7 @@
 // Cells around boundaries (boundary_cells.h), and boxes that are clear of others
 // (settled_parts.h), against looking at all of them.
 
-#include <trisect/bsp/many_meshes/boundary_cells.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include <trisect/bsp/many_meshes/settled_parts.h>
+#include <trisect/bsp/many_meshes/outlines/settled_parts.h>
 
 namespace {
 

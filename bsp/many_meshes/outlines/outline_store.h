@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/outlined_solid.h>
-#include <trisect/bsp/many_meshes/settled_part.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/settled_part.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {

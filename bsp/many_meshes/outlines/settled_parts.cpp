@@ -5,7 +5,7 @@
 // box can not. Nor is a point out of the clear box, and beyond the box of what is not settled,
 // within the solid: a ray from there along an axis goes by both boxes.
 
-#include <trisect/bsp/many_meshes/settled_parts.h>
+#include <trisect/bsp/many_meshes/outlines/settled_parts.h>
 
 #include <algorithm>
 #include <cstddef>

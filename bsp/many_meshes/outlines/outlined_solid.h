@@ -15,9 +15,9 @@
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/cells/source.h>
-#include <trisect/bsp/many_meshes/nested_formula.h>
-#include <trisect/bsp/many_meshes/operand_shifts.h>
-#include <trisect/bsp/many_meshes/planes_across_axes.h>
+#include <trisect/bsp/many_meshes/outlines/nested_formula.h>
+#include <trisect/bsp/many_meshes/outlines/operand_shifts.h>
+#include <trisect/bsp/many_meshes/outlines/planes_across_axes.h>
 #include <trisect/kernel/number/vector3.h>
 
 namespace trisect::detail {

@@ -2,7 +2,7 @@
 //
 // Which operands grow and which shrink (growth_signs.h), against all choices.
 
-#include <trisect/bsp/many_meshes/growth_signs.h>
+#include <trisect/bsp/many_meshes/outlines/growth_signs.h>
 
 #include <array>
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include <trisect/bsp/cells/cell.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {

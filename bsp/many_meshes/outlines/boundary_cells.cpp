@@ -3,7 +3,7 @@
 // Places of coordinates do not decrease along an axis, however they are rounded. So boxes in
 // different cells do not meet.
 
-#include <trisect/bsp/many_meshes/boundary_cells.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 
 #include <algorithm>
 #include <cmath>

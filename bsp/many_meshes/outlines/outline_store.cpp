@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-#include <trisect/bsp/many_meshes/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/outline_store.h>
 
 #include <algorithm>
 
