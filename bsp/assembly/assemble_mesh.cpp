@@ -43,9 +43,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::size_t least_points = 16384;
 constexpr std::size_t least_group_count = 4096;
 
-// Nor are fewer vertices that cuts have made, or facets that were cut.
+// Nor are fewer vertices that cuts have made, or edges of facets that were cut.
 constexpr std::size_t least_made = 512;
-constexpr std::size_t least_cut = 256;
+constexpr std::size_t least_cut_edges = 1024;
 
 // By source: the numbers of its corners in the mesh.
 using CornerTables = std::vector<PoolVector<std::uint32_t>>;
@@ -251,13 +251,20 @@ private:
             if (i == 0 || edges[i].facet != edges[i - 1].facet) begins.push_back(i);
         const PoolVector<Point3d> rounded = rounded_coordinates(made);
         const MadeVertices vertices{number_, rounded, unit_};
-        const ParallelParts parts(begins.size(), threads_, least_cut);
+        // By edges: few facets may have nearly all of them.
+        const ParallelParts parts(edges.size(), threads_, least_cut_edges);
         std::vector<CutFacets> cut(parts.count());
+        const auto facet_from = [&](std::size_t edge) {
+            return static_cast<std::size_t>(std::ranges::lower_bound(begins, edge) -
+                                            begins.begin());
+        };
         begins.push_back(edges.size());
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            const std::size_t first = facet_from(begin);
+            const std::size_t last = facet_from(end);
             FacetCutter cutter(parts_, vertices);
-            cut[part].corners.reserve(3 * (begins[end] - begins[begin]));
-            for (std::size_t i = begin; i < end; ++i) {
+            cut[part].corners.reserve(3 * (begins[last] - begins[first]));
+            for (std::size_t i = first; i < last; ++i) {
                 check_stop();
                 cutter.cut(edges.subspan(begins[i], begins[i + 1] - begins[i]), cut[part]);
             }
@@ -461,18 +468,21 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     return mesh;
 }
 
-// How many facets a form lists, and how often these cross.
+// How many facets a form lists, and how often these cross, or what edges their outlines have.
 struct ListedFacets {
     std::size_t operator()(const CellTree& tree) const {
         return tree.root.node->size() + (tree.crossings ? tree.crossings->pairs.size() : 0);
     }
-    std::size_t operator()(const PrismOutlines& prisms) const { return prisms.whole->size(); }
+    std::size_t operator()(const PrismOutlines& prisms) const {
+        return prisms.whole->size() + prisms.outlines->edges.size();
+    }
     std::size_t operator()(const FlatPrism& prism) const {
         return prism.operand->given().segments.size();
     }
     std::size_t operator()(const UndividedMeshes& meshes) const {
         std::size_t facets = meshes.crossings->pairs.size();
         for (const UncrossedFacets& list : meshes.uncrossed) facets += list.facets.size();
+        if (meshes.outlined != nullptr) facets += meshes.outlined->edges.size();
         return meshes.beside != nullptr ? facets + (*this)(*meshes.beside) : facets;
     }
 };
