@@ -790,12 +790,13 @@ bool Gatherer::conform_traced(std::span<BoundaryEdge> edges) {
     }
     const auto special = edges.first(count);
     if (special.empty()) return true;
+    if (threads_ != 1) out_.bench.share();
     if (!may_have_sheets_) {
-        splitter_.split(special, out_.edges);
+        splitter_.split(special, out_.edges, threads_);
         return true;
     }
     BoundaryEdges conforming;
-    splitter_.split(special, conforming);
+    splitter_.split(special, conforming, threads_);
     if (!remove_sheets(out_, same_, conforming)) return false;
     out_.edges.insert(out_.edges.end(), conforming.begin(), conforming.end());
     return true;

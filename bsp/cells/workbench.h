@@ -138,7 +138,7 @@ public:
     void reserve_points_on_edges(std::size_t planes, std::size_t points, std::size_t on_edges);
     /// No point will be named by planes any more: gives back what is only needed for that.
     void end_points();
-    /// From now on several threads may call what is const. Nothing else may be called any more.
+    /// Several threads may call what is const, until one thread alone calls something else.
     void share();
     /// Gives back the planes that were made so far; they are made again on demand. Ends references
     /// to them.

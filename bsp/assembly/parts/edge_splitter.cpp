@@ -8,13 +8,12 @@
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <trisect/bsp/cells/point_order.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
-#include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
@@ -96,9 +95,10 @@ void EdgeSplitter::clear() {
     candidates_.clear();
     are_many_ = false;
     for (VertexColumns& c : columns_) c.clear();
+    for (BuiltOnce& c : has_columns_) c.clear();
     boxes_.clear();
-    known_.clear();
-    slots_.clear();
+    has_boxes_.clear();
+    looked_.clear();
 }
 
 void EdgeSplitter::add_candidate(PointId p) {
@@ -155,61 +155,25 @@ void EdgeSplitter::sort_candidates(std::span<const BoundaryEdge> edges) {
     });
 }
 
-// Points of all edges that have looked stay in a row, those of the last one behind.
-EdgeSplitter::Inside EdgeSplitter::find_once(const BoundaryEdge& e) {
-    if (!are_many_) {
-        inside_.clear();
-        find_inside(e);
-        return {e.from, e.to, 0, static_cast<std::uint32_t>(inside_.size())};
-    }
-    if (2 * (known_.size() + 1) > slots_.size()) make_slots(2 * slots_.size());
-    std::uint32_t& slot = slot_of(e.from, e.to);
-    if (slot != 0) return known_[slot - 1];
-    const auto first = static_cast<std::uint32_t>(inside_.size());
-    find_inside(e);
-    known_.push_back({e.from, e.to, first, static_cast<std::uint32_t>(inside_.size()) - first});
-    slot = static_cast<std::uint32_t>(known_.size());
-    return known_.back();
-}
-
-// Of the edge between two points, either way; else a free one.
-std::uint32_t& EdgeSplitter::slot_of(PointId from, PointId to) {
-    const PointId low = std::min(from, to);
-    const PointId high = std::max(from, to);
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t i = static_cast<std::size_t>(mix64(static_cast<std::uint64_t>(low) << 32U |
-                                                   static_cast<std::uint32_t>(high))) &
-                    mask;
-    const auto is_other = [&](const Inside& known) {
-        return std::min(known.from, known.to) != low || std::max(known.from, known.to) != high;
-    };
-    while (slots_[i] != 0 && is_other(known_[slots_[i] - 1])) i = (i + 1) & mask;
-    return slots_[i];
-}
-
-void EdgeSplitter::make_slots(std::size_t n) {
-    slots_.assign(std::max<std::size_t>(n, 64), 0);
-    for (std::uint32_t k = 0; k < known_.size(); ++k) slot_of(known_[k].from, known_[k].to) = k + 1;
-}
-
-void EdgeSplitter::find_inside(const BoundaryEdge& e) {
-    const std::size_t first = inside_.size();
+void EdgeSplitter::find_inside(const BoundaryEdge& e, PoolVector<PointId>& inside) {
+    const std::size_t first = inside.size();
     if (are_many_) {
-        find_inside_near(e);
+        find_inside_near(e, inside);
     } else {
-        find_inside_sorted(e);
+        find_inside_sorted(e, inside);
     }
-    if (inside_.size() > first + 1)
-        sort_inside(e, separating_axis(bench_, e.from, e.to), std::span(inside_).subspan(first));
+    if (inside.size() > first + 1)
+        sort_inside(e, separating_axis(bench_, e.from, e.to), std::span(inside).subspan(first));
 }
 
-void EdgeSplitter::look_at(const BoundaryEdge& e, const Candidate& candidate) {
+void EdgeSplitter::look_at(const BoundaryEdge& e, const Candidate& candidate,
+                           PoolVector<PointId>& inside) const {
     if (lies_inside(bench_, candidate.point, e, facets_[as_index(e.facet)].support))
-        inside_.push_back(candidate.point);
+        inside.push_back(candidate.point);
 }
 
 // What is between the ends along axis_, and farther out by no more than the errors allow.
-void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e) {
+void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e, PoolVector<PointId>& inside) {
     const std::array<double, 3>& from = bench_.approximation(e.from).c;
     const std::array<double, 3>& to = bench_.approximation(e.to).c;
     const double reach = error_slack * (3 * widest_);
@@ -220,7 +184,8 @@ void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e) {
     if (it == candidates_.end() || it->c[axis_] > end) return;
     const EdgeFilter filter(from, to, 3 * widest_);
     for (; it != candidates_.end() && it->c[axis_] <= end; ++it)
-        if (it->point != e.from && it->point != e.to && filter.may_contain(it->c)) look_at(e, *it);
+        if (it->point != e.from && it->point != e.to && filter.may_contain(it->c))
+            look_at(e, *it, inside);
 }
 
 // Of an edge along an axis: there its ends have the same place across it, as far as doubles know.
@@ -234,23 +199,25 @@ VertexColumns* EdgeSplitter::columns_of(const BoundaryEdge& e) {
     if (farthest > 3 * widest_) return nullptr;
     VertexColumns& columns = columns_[axis];
     // Some dozens of times wider than what is looked for, so that this is mostly in one column.
-    if (columns.is_empty()) columns.build(grid_.vertices(), axis, widest_ > 0 ? 256 * widest_ : 1);
+    has_columns_[axis].by(
+        [&] { columns.build(grid_.vertices(), axis, widest_ > 0 ? 256 * widest_ : 1); });
     return &columns;
 }
 
-void EdgeSplitter::find_inside_near(const BoundaryEdge& e) {
+void EdgeSplitter::find_inside_near(const BoundaryEdge& e, PoolVector<PointId>& inside) {
     const std::array<double, 3>& from = bench_.approximation(e.from).c;
     const std::array<double, 3>& to = bench_.approximation(e.to).c;
     const EdgeFilter filter(from, to, 3 * widest_);
     const auto look_at_all = [&](std::span<const Candidate> candidates) {
         for (const Candidate& c : candidates)
-            if (filter.may_contain(c.c) && c.point != e.from && c.point != e.to) look_at(e, c);
+            if (filter.may_contain(c.c) && c.point != e.from && c.point != e.to)
+                look_at(e, c, inside);
     };
     if (grid_.for_each_near(filter.low(), filter.high(), look_at_all)) return;
     if (const VertexColumns* columns = columns_of(e);
         columns != nullptr && columns->for_each_near(filter.low(), filter.high(), look_at_all))
         return;
-    if (boxes_.is_empty()) boxes_.build(candidates_);
+    has_boxes_.by([&] { boxes_.build(candidates_); });
     boxes_.for_each_near(from, to, error_slack * (3 * widest_), look_at_all);
 }
 
@@ -261,27 +228,75 @@ void EdgeSplitter::sort_inside(const BoundaryEdge& e, int axis, std::span<PointI
     });
 }
 
-void EdgeSplitter::split(std::span<const BoundaryEdge> edges, BoundaryEdges& out) {
+namespace {
+
+// `inside`: of the edge, or of it the other way round.
+void add_parts(const BoundaryEdge& e, std::span<const PointId> inside, bool runs_back,
+               BoundaryEdges& out) {
+    PointId from = e.from;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        const PointId p = inside[runs_back ? inside.size() - 1 - i : i];
+        out.push_back({from, p, e.facet, e.line});
+        from = p;
+    }
+    out.push_back({from, e.to, e.facet, e.line});
+}
+
+// Fewer edges are not worth a thread of their own.
+constexpr std::size_t least_edges_split = 4096;
+
+}  // namespace
+
+void EdgeSplitter::split(std::span<const BoundaryEdge> edges, BoundaryEdges& out,
+                         std::uint32_t threads) {
     if (candidates_.empty()) {
         out.insert(out.end(), edges.begin(), edges.end());
         return;
     }
     sort_candidates(edges);
-    if (are_many_) {
-        make_slots(std::bit_ceil(edges.size()));  // mostly each edge comes twice
-        known_.reserve(edges.size() / 2);
-    }
-    inside_.clear();
-    for (const BoundaryEdge& e : edges) {
-        const Inside found = find_once(e);
-        PointId from = e.from;
-        for (std::uint32_t i = 0; i < found.count; ++i) {
-            const std::uint32_t place = found.from == e.from ? i : found.count - 1 - i;
-            const PointId p = inside_[found.first + place];
-            out.push_back({from, p, e.facet, e.line});
-            from = p;
+    if (!are_many_) {
+        for (const BoundaryEdge& e : edges) {
+            inside_.clear();
+            find_inside(e, inside_);
+            add_parts(e, inside_, false, out);
         }
-        out.push_back({from, e.to, e.facet, e.line});
+        return;
+    }
+    const std::size_t count =
+        threads == 1 ? 1 : parts_by_thread(edges.size(), threads, least_edges_split).count();
+    if (count > 1) return split_in_parts(edges, out, count, threads);
+    looked_.reserve(edges.size() / 2);  // mostly each edge comes twice
+    for (const BoundaryEdge& e : edges) {
+        const LookedEdges::Inside& found = looked_[looked_.number_of(
+            e, [&](const BoundaryEdge& edge, PoolVector<PointId>& in) { find_inside(edge, in); })];
+        add_parts(e, looked_.vertices_of(found), found.from != e.from, out);
+    }
+}
+
+// An edge belongs to the part that its ends say, so that both facets of it find it there.
+void EdgeSplitter::split_in_parts(std::span<const BoundaryEdge> edges, BoundaryEdges& out,
+                                  std::size_t count, std::uint32_t threads) {
+    const auto part_of = [count](const BoundaryEdge& e) {
+        return static_cast<std::size_t>((LookedEdges::hash_of(e) >> 32U) % count);
+    };
+    std::vector<LookedEdges> looked(count);
+    PoolVector<std::uint32_t> numbers(edges.size());  // of each edge in its part
+    ParallelParts(count, threads, 1).for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t part = begin; part < end; ++part) {
+            looked[part].reserve(edges.size() / (2 * count));
+            for (std::size_t i = 0; i < edges.size(); ++i) {
+                if (part_of(edges[i]) != part) continue;
+                numbers[i] = looked[part].number_of(
+                    edges[i], [&](const BoundaryEdge& e, PoolVector<PointId>& inside) {
+                        find_inside(e, inside);
+                    });
+            }
+        }
+    });
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const LookedEdges& of_part = looked[part_of(edges[i])];
+        const LookedEdges::Inside& found = of_part[numbers[i]];
+        add_parts(edges[i], of_part.vertices_of(found), found.from != edges[i].from, out);
     }
 }
 

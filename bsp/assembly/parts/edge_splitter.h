@@ -4,12 +4,15 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_facet.h>
+#include <trisect/bsp/assembly/parts/looked_edges.h>
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
 #include <trisect/bsp/assembly/parts/vertex_columns.h>
 #include <trisect/bsp/assembly/parts/vertex_grid.h>
@@ -30,27 +33,39 @@ public:
         : bench_(bench), facets_(facets) {}
     void clear();
     void add_candidate(PointId p);
-    /// Appends the parts of the edges to `out`, each edge's parts in order.
-    void split(std::span<const BoundaryEdge> edges, BoundaryEdges& out);
+    /// Appends the parts of the edges to `out`, each edge's parts in order. `threads` as in
+    /// ParallelParts; if not 1 the bench has to be shared.
+    void split(std::span<const BoundaryEdge> edges, BoundaryEdges& out, std::uint32_t threads = 1);
 
 private:
     using Candidate = VertexBoxes::Vertex;
+    // Built by the first edge that needs it, once, on whichever thread that is.
+    class BuiltOnce {
+    public:
+        template <class Build>
+        void by(const Build& build) {
+            if (is_built_.load(std::memory_order_acquire)) return;
+            const std::lock_guard lock(mutex_);
+            if (is_built_.load(std::memory_order_relaxed)) return;
+            build();
+            is_built_.store(true, std::memory_order_release);
+        }
+        void clear() { is_built_.store(false, std::memory_order_relaxed); }
+
+    private:
+        std::atomic<bool> is_built_{false};
+        std::mutex mutex_;
+    };
     void sort_candidates(std::span<const BoundaryEdge> edges);
     [[nodiscard]] double short_length(std::span<const BoundaryEdge> edges) const;
-    struct Inside {
-        PointId from = -1;  // the edge that has looked
-        PointId to = -1;
-        std::uint32_t first = 0;  // of inside_
-        std::uint32_t count = 0;
-    };
-    [[nodiscard]] Inside find_once(const BoundaryEdge& e);
-    [[nodiscard]] std::uint32_t& slot_of(PointId from, PointId to);
-    void make_slots(std::size_t n);
-    void find_inside(const BoundaryEdge& e);
-    void find_inside_sorted(const BoundaryEdge& e);
-    void find_inside_near(const BoundaryEdge& e);
+    void split_in_parts(std::span<const BoundaryEdge> edges, BoundaryEdges& out, std::size_t count,
+                        std::uint32_t threads);
+    void find_inside(const BoundaryEdge& e, PoolVector<PointId>& inside);
+    void find_inside_sorted(const BoundaryEdge& e, PoolVector<PointId>& inside);
+    void find_inside_near(const BoundaryEdge& e, PoolVector<PointId>& inside);
     [[nodiscard]] VertexColumns* columns_of(const BoundaryEdge& e);
-    void look_at(const BoundaryEdge& e, const Candidate& candidate);
+    void look_at(const BoundaryEdge& e, const Candidate& candidate,
+                 PoolVector<PointId>& inside) const;
     void sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const;
 
     const Workbench& bench_;
@@ -60,12 +75,13 @@ private:
     VertexGrid grid_;                       // of many candidates
     std::array<VertexColumns, 3> columns_;  // of these, once an edge is long and along an axis
     VertexBoxes boxes_;                     // once an edge is long
-    std::vector<bool> is_listed_;           // by point: among the candidates
-    std::size_t axis_ = 0;                  // that they are sorted along
-    double widest_ = 0;                     // error of a candidate or an end
-    PoolVector<PointId> inside_;            // of the edges that have looked, each along its edge
-    PoolVector<Inside> known_;              // of many candidates
-    PoolVector<std::uint32_t> slots_;       // of a hash table: 1 more than a place in known_, or 0
+    std::array<BuiltOnce, 3> has_columns_;
+    BuiltOnce has_boxes_;
+    std::vector<bool> is_listed_;  // by point: among the candidates
+    std::size_t axis_ = 0;         // that they are sorted along
+    double widest_ = 0;            // error of a candidate or an end
+    PoolVector<PointId> inside_;   // of one edge, if candidates are few
+    LookedEdges looked_;           // if they are many
 };
 
 }  // namespace trisect::detail

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <trisect/bsp/cells/workbench.h>
 #include <trisect/kernel/support/pool_allocator.h>

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <trisect/bsp/assembly/parts/vertex_boxes.h>
 #include <trisect/kernel/support/flat_map.h>
