@@ -129,17 +129,23 @@ void AxisFaceOutlines<Number>::choose(std::span<const Leaf> leaves) {
     if (open_count_ == 0) return;
     facets_.assign(parts_.facets.size(), {});
     across_.clear();
+    is_alone_ = threads_ == 1 || ParallelParts(parts_.facets.size(), threads_).count() == 1;
     for (const Leaf& leaf : leaves) {
         across_.push_back(leaf.occupancy != nullptr || all_across_axes<Number>(*leaf.polygons));
         if (!across_.back()) continue;
         check_stop(1 + leaf.polygons->size());
-        read_leaf(leaf);
+        if (is_alone_) {
+            read_leaf(leaf);
+        } else {
+            list_leaf(leaf);
+        }
         ++read_count_;
         if (open_count_ != 0) continue;
         passing_ = {};
         return;
     }
     if (std::ranges::find(across_, true) == across_.end()) return;
+    read_listed(leaves);
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         if (across_[i]) continue;
         check_stop(1 + leaves[i].polygons->size());
@@ -192,17 +198,80 @@ void AxisFaceOutlines<Number>::read_leaf(const Leaf& leaf) {
         const bool flipped = r.flipped != leaf.complemented;
         if (marks.takes_part(r.facet, flipped)) {
             const std::int32_t number = marks.number_of_worked(r.facet, flipped);
-            if (leaf.occupancy != nullptr) {
-                read_facet(r, number, leaf.occupancy->parts[i], leaf.cell);
-            } else {
-                read_polygon(r, number, leaf.cell);
-            }
+            (void)face_plane_of(r, number);
+            read_in_leaf(r, number, leaf, i, sides_);
         } else if (marks.is_present(r.facet, flipped)) {
             pass(r);
         }
         ++i;
     }
     if (leaf.occupancy != nullptr) with_units_.push_back(&leaf);
+}
+
+// \pre the plane of its facet is listed
+template <class Number>
+void AxisFaceOutlines<Number>::read_in_leaf(const PolygonRef& polygon, std::int32_t number,
+                                            const Leaf& leaf, std::size_t place,
+                                            std::vector<Side>& sides) {
+    if (leaf.occupancy != nullptr) {
+        read_facet(polygon, number, leaf.occupancy->parts[place], leaf.cell);
+    } else {
+        read_polygon(polygon, number, leaf.cell, sides);
+    }
+}
+
+// What several threads read later needs the planes, by number, and which of them pass.
+template <class Number>
+void AxisFaceOutlines<Number>::list_leaf(const Leaf& leaf) {
+    for (const PolygonRef r : *leaf.polygons) {
+        const FacetMarks& marks = marks_of(r.source);
+        const bool flipped = r.flipped != leaf.complemented;
+        if (marks.takes_part(r.facet, flipped)) {
+            (void)face_plane_of(r, marks.number_of_worked(r.facet, flipped));
+        } else if (marks.is_present(r.facet, flipped)) {
+            pass(r);
+        }
+    }
+    if (leaf.occupancy != nullptr) with_units_.push_back(&leaf);
+}
+
+// Each thread looks at all polygons, and reads those of its planes: what is kept of a polygon is
+// of its plane and of its facet. So they come in the same order for any number of threads.
+template <class Number>
+void AxisFaceOutlines<Number>::read_listed(std::span<const Leaf> leaves) {
+    if (is_alone_) return;
+    const std::size_t count = parts_by_thread(face_planes_.size(), threads_, 1).count();
+    const StopScope* const scope = stop_scope_of_thread;
+    ParallelParts(count, count == 1 ? 1 : threads_, 1)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t part = begin; part < end; ++part)
+                read_planes(leaves, part, count, scope);
+        });
+}
+
+// Those of which the number leaves that rest.
+template <class Number>
+void AxisFaceOutlines<Number>::read_planes(std::span<const Leaf> leaves, std::size_t rest,
+                                           std::size_t divisor, const StopScope* scope) {
+    std::vector<Side> sides;
+    const Source* last_source = nullptr;
+    const FacetMarks* marks = nullptr;
+    for (std::size_t l = 0; l < leaves.size(); ++l) {
+        if (!across_[l]) continue;
+        const Leaf& leaf = leaves[l];
+        check_flags(scope);
+        std::size_t i = 0;
+        for (const PolygonRef r : *leaf.polygons) {
+            if (r.source != last_source) marks = &parts_.sources[parts_.table_of(r.source)];
+            last_source = r.source;
+            const bool flipped = r.flipped != leaf.complemented;
+            const std::size_t place = i++;
+            if (!marks->takes_part(r.facet, flipped)) continue;
+            const std::int32_t number = marks->number_of_worked(r.facet, flipped);
+            if (as_index(facets_[as_index(number)].face_plane) % divisor == rest)
+                read_in_leaf(r, number, leaf, place, sides);
+        }
+    }
 }
 
 // Its plane is not taken. Facets of one plane mostly come one after the other.
@@ -221,8 +290,8 @@ void AxisFaceOutlines<Number>::pass(const PolygonRef& facet) {
 template <class Number>
 void AxisFaceOutlines<Number>::read_facet(const PolygonRef& facet, std::int32_t number,
                                           const OccupancyGrid::Part& part, const Cell& cell) {
-    FacePlane& face_plane = face_plane_of(facet, number);
     Facet& f = facets_[as_index(number)];
+    FacePlane& face_plane = face_planes_[as_index(f.face_plane)];
     (void)count_part(face_plane, number);
     f.is_cut = f.is_cut || part.is_cut;
     f.corners |= part.corners;
@@ -312,18 +381,18 @@ bool AxisFaceOutlines<Number>::count_part(FacePlane& face_plane, std::int32_t nu
 
 template <class Number>
 void AxisFaceOutlines<Number>::read_polygon(const PolygonRef& polygon, std::int32_t number,
-                                            const Cell& cell) {
-    FacePlane& face_plane = face_plane_of(polygon, number);
+                                            const Cell& cell, std::vector<Side>& sides) {
     Facet& f = facets_[as_index(number)];
+    FacePlane& face_plane = face_planes_[as_index(f.face_plane)];
     if (face_plane.is_general) return;
     const auto add = [&](const PolygonRef& part) {
-        if (!read_axis_sides(part, face_plane.plane.axis, sides_)) {
+        if (!read_axis_sides(part, face_plane.plane.axis, sides)) {
             face_plane.is_general = true;
             return;
         }
-        face_plane.outline.add(sides_, f.normal_is_up, count_part(face_plane, number));
+        face_plane.outline.add(sides, f.normal_is_up, count_part(face_plane, number));
         add_area(part, f, face_plane.plane);
-        note_corners(part, f, face_plane.plane.axis);
+        note_corners(part, f, face_plane.plane.axis, sides);
     };
     if (!with_part_in<Number>(polygon, cell, face_plane.plane.axis, add))
         face_plane.is_general = true;
@@ -363,8 +432,8 @@ void AxisFaceOutlines<Number>::add_area(const PolygonRef& part, Facet& facet,
 
 // A corner that a part has is known by that name to facets that pass through.
 template <class Number>
-void AxisFaceOutlines<Number>::note_corners(const PolygonRef& part, Facet& facet,
-                                            std::size_t axis) const {
+void AxisFaceOutlines<Number>::note_corners(const PolygonRef& part, Facet& facet, std::size_t axis,
+                                            std::span<const Side> sides) const {
     std::array<bool, 3> near{};
     for (int c = 0; c < 3; ++c)
         near[as_index(c)] = (facet.corners >> c & 1) == 0 &&
@@ -374,9 +443,9 @@ void AxisFaceOutlines<Number>::note_corners(const PolygonRef& part, Facet& facet
         facet.corners = 7;
         return;
     }
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-        const Side& before = sides_[i == 0 ? sides_.size() - 1 : i - 1];
-        const Side& side = sides_[i];
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+        const Side& before = sides[i == 0 ? sides.size() - 1 : i - 1];
+        const Side& side = sides[i];
         std::array<std::optional<Number>, 2> at;
         if (before.is_slanted && side.is_slanted) {
             const auto& line = before.line;
@@ -580,8 +649,11 @@ void AxisFaceOutlines<Number>::rank_coordinates() {
         face_planes_[i].rank = rank(p.axis, Numbers::place_of(p.position));
         face_plane_of_[p.axis][face_planes_[i].rank] = static_cast<std::int32_t>(i);
     }
-    for (FacePlane& s : face_planes_)
-        if (!s.is_general) rank_places(s);
+    ParallelParts(face_planes_.size(), threads_, least_planes)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (FacePlane& s : std::span(face_planes_).subspan(begin, end - begin))
+                if (!s.is_general) rank_places(s);
+        });
 }
 
 // Neighbours in an outline mostly have neighbouring ranks.

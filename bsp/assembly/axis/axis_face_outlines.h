@@ -14,6 +14,7 @@
 #include <trisect/bsp/assembly/axis/axis_outline.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/cells/occupancy_grid.h>
+#include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
@@ -113,6 +114,12 @@ private:
     [[nodiscard]] FacePlane& face_plane_at(const Plane& plane, const PlaneName& name);
     void list_open_planes();
     void read_leaf(const Leaf& leaf);
+    void list_leaf(const Leaf& leaf);
+    void read_listed(std::span<const Leaf> leaves);
+    void read_planes(std::span<const Leaf> leaves, std::size_t rest, std::size_t divisor,
+                     const StopScope* scope);
+    void read_in_leaf(const PolygonRef& polygon, std::int32_t number, const Leaf& leaf,
+                      std::size_t place, std::vector<Side>& sides);
     void block_leaf(const Leaf& leaf);
     void read_facet(const PolygonRef& facet, std::int32_t number, const OccupancyGrid::Part& part,
                     const Cell& cell);
@@ -127,9 +134,11 @@ private:
     void pass(const PolygonRef& facet);
     [[nodiscard]] FacePlane& face_plane_of(const PolygonRef& polygon, std::int32_t number);
     [[nodiscard]] bool count_part(FacePlane& face_plane, std::int32_t number);
-    void read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell);
+    void read_polygon(const PolygonRef& polygon, std::int32_t number, const Cell& cell,
+                      std::vector<Side>& sides);
     void add_area(const PolygonRef& part, Facet& facet, const Plane& plane) const;
-    void note_corners(const PolygonRef& part, Facet& facet, std::size_t axis) const;
+    void note_corners(const PolygonRef& part, Facet& facet, std::size_t axis,
+                      std::span<const Side> sides) const;
     void judge();
     [[nodiscard]] bool has_changed(std::int32_t number) const;
 
@@ -179,6 +188,7 @@ private:
 
     BoundaryParts& parts_;
     std::uint32_t threads_;
+    bool is_alone_ = true;  // one thread reads all polygons
     std::vector<const Leaf*> with_units_;
     const Source* last_source_ = nullptr;
     std::size_t last_table_ = 0;
