@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Boundaries put together by several threads: the same edges, points and meshes as by one.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <trisect/brep/polygon_mesh.h>
+#include <trisect/bsp/assembly/assembly_parts.h>
+#include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/solid.h>
+
+#include "support/solids.h"
+
+namespace {
+
+using trisect::evaluate;
+using trisect::Expression;
+using trisect::Point3d;
+using trisect::PolygonMesh;
+using trisect::Solid;
+using trisect::detail::BoundaryEdge;
+using trisect::detail::BoundaryParts;
+
+void expect_equal_edges(const BoundaryParts& a, const BoundaryParts& b) {
+    ASSERT_EQ(a.edges.size(), b.edges.size());
+    ASSERT_EQ(a.bench.point_count(), b.bench.point_count());
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < a.edges.size(); ++i) {
+        const BoundaryEdge& e = a.edges[i];
+        const BoundaryEdge& f = b.edges[i];
+        if (e.from != f.from || e.to != f.to || e.facet != f.facet ||
+            e.line.plane != f.line.plane || a.bench.nearest(e.from) != b.bench.nearest(f.from))
+            ++different;
+    }
+    EXPECT_EQ(different, 0U);
+}
+
+// Not only the mesh: small boundaries would be put together by one thread. Returns the edges.
+std::size_t expect_the_same_on_threads(const Solid& solid) {
+    const auto state = trisect::detail::state_of(solid);
+    BoundaryParts alone;
+    trisect::detail::gather_parts(*state, alone, true, 1);
+    const PolygonMesh mesh = solid.to_mesh(1);
+    for (const std::uint32_t threads : {2U, 5U}) {
+        BoundaryParts parts;
+        trisect::detail::gather_parts(*state, parts, true, threads);
+        expect_equal_edges(parts, alone);
+        const PolygonMesh other = solid.to_mesh(threads);
+        EXPECT_EQ(other.corners, mesh.corners);
+        EXPECT_TRUE(other.points == mesh.points);
+    }
+    return alone.edges.size();
+}
+
+void add_box(PolygonMesh& mesh, const Point3d& low, const Point3d& high) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (unsigned i = 0; i < 8; ++i)
+        mesh.points.push_back({(i & 1U) != 0 ? high[0] : low[0], (i & 2U) != 0 ? high[1] : low[1],
+                               (i & 4U) != 0 ? high[2] : low[2]});
+    for (const auto& f : std::array<std::array<std::uint32_t, 4>, 6>{{{0, 2, 3, 1},
+                                                                      {4, 5, 7, 6},
+                                                                      {0, 1, 5, 4},
+                                                                      {2, 6, 7, 3},
+                                                                      {0, 4, 6, 2},
+                                                                      {1, 3, 7, 5}}}) {
+        mesh.add_triangle(first + f[0], first + f[1], first + f[2]);
+        mesh.add_triangle(first + f[0], first + f[2], first + f[3]);
+    }
+}
+
+void add_bore(PolygonMesh& mesh, double x, double y, std::uint32_t sides) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const double z : {-0.5, 1.5})
+        for (std::uint32_t k = 0; k < sides; ++k) {
+            const double angle = 0.3 * x + 0.7 * y + 6.28 * k / sides;
+            mesh.points.push_back(
+                {x + 0.5 + 0.35 * std::cos(angle), y + 0.5 + 0.35 * std::sin(angle), z});
+        }
+    for (std::uint32_t k = 0; k < sides; ++k) {
+        const std::uint32_t l = (k + 1) % sides;
+        mesh.add_triangle(first + k, first + l, first + l + sides);
+        mesh.add_triangle(first + k, first + l + sides, first + k + sides);
+        if (k < 2) continue;
+        mesh.add_triangle(first, first + k, first + k - 1);
+        mesh.add_triangle(first + sides, first + sides + k - 1, first + sides + k);
+    }
+}
+
+// Outlines of what many meshes leave of each other's facets.
+TEST(ExportOnThreads, ManyBalls) {
+    std::vector<Solid> balls;
+    for (int i = 0; i < 16; ++i)
+        balls.push_back(
+            solids::ball(1, 4, {0.31 * i, 0.4 * (i % 3), 0.27 * ((i * 7) % 5)}, 0x1p-30));
+    EXPECT_GT(expect_the_same_on_threads(evaluate(Expression::any_of(balls))), 3000U);
+}
+
+// Vertices of many facets in special position are looked for inside their edges.
+TEST(ExportOnThreads, BoresThroughAPlate) {
+    PolygonMesh bores;
+    for (int i = 0; i < 24; ++i)
+        for (int j = 0; j < 24; ++j) add_bore(bores, i, j, 32);
+    const Solid plate = evaluate(solids::box(0, 0, 0, 24, 24, 1) - Solid::from_mesh(bores));
+    EXPECT_GT(expect_the_same_on_threads(plate), 8192U);
+}
+
+// Bars across each other: planes with hundreds of edges each, outlined one by one.
+TEST(ExportOnThreads, PlanesAcrossAxes) {
+    constexpr int count = 9;
+    std::vector<Solid> bars;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        PolygonMesh mesh;
+        for (int i = 0; i < count; ++i)
+            for (int j = 0; j < count; ++j) {
+                Point3d low{};
+                Point3d high{};
+                low[axis] = -1;
+                high[axis] = 3 * count + 1;
+                low[(axis + 1) % 3] = 3 * i + 1;
+                high[(axis + 1) % 3] = 3 * i + 2 + (i + j) % 2;
+                low[(axis + 2) % 3] = 3 * j + 1;
+                high[(axis + 2) % 3] = 3 * j + 2;
+                if ((i + j) % 2 == 1) high[(axis + 1) % 3] -= 0.5;
+                add_box(mesh, low, high);
+            }
+        bars.push_back(Solid::from_mesh(mesh));
+    }
+    const double side = 3 * count;
+    const Solid rest = evaluate(solids::box(0, 0, 0, side, side, side) - Expression::any_of(bars));
+    EXPECT_GT(expect_the_same_on_threads(rest), 2048U);
+}
+
+}  // namespace
