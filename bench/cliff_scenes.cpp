@@ -248,7 +248,8 @@ Scene pair_scene(const std::vector<std::string>& words) {
     Scene s;
     const PolygonMesh a = operand_of(words[1], std::atoi(words[2].c_str()), words);
     s.operands = {a, placed(a, words[3], words)};
-    s.operations = {Operation::Union, Operation::Intersection, Operation::Difference};
+    s.operations = {Operation::Union, Operation::Intersection, Operation::Difference,
+                    Operation::ExclusiveOr};
     return s;
 }
 
@@ -299,7 +300,8 @@ Scene group_scene(const std::vector<std::string>& words) {
         s.operands.push_back(shapes::block({0, 0, 0}, {room, room, room}));
     }
     for (int i = 0; i < n; ++i) s.operands.push_back(member(words[1], shape, i, n, random, words));
-    s.operations = {Operation::Union, Operation::Difference, Operation::Intersection};
+    s.operations = {Operation::Union, Operation::Difference, Operation::Intersection,
+                    Operation::ExclusiveOr};
     return s;
 }
 

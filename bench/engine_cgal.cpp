@@ -25,6 +25,7 @@ public:
 
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
+        if (operation == Operation::ExclusiveOr) throw std::runtime_error("no exclusive or");
         if (second.empty()) {
             const auto type = type_of(operation);
             if (operation != Operation::Difference || first.size() == 1)

@@ -65,6 +65,9 @@ public:
 
     Body evaluate(std::span<const Body> first, std::span<const Body> second,
                   Operation operation) override {
+        if (operation == Operation::ExclusiveOr)
+            return evaluated(second.empty() ? exclusive(first)
+                                            : exclusive(united(first), united(second)));
         if (second.empty()) return evaluated(combined(first, type_of(operation)));
         const Manifold a = united(first);
         return evaluated(a.Boolean(united(second), type_of(operation)));
@@ -118,6 +121,13 @@ private:
         return operation == Operation::Intersection ? OpType::Intersect : OpType::Subtract;
     }
 
+    // There is no such operation; halves are balanced, which takes least.
+    static Manifold exclusive(const Manifold& a, const Manifold& b) { return (a - b) + (b - a); }
+    static Manifold exclusive(std::span<const Body> bodies) {
+        if (bodies.size() == 1) return std::any_cast<const Manifold&>(bodies[0]);
+        const std::size_t half = bodies.size() / 2;
+        return exclusive(exclusive(bodies.first(half)), exclusive(bodies.subspan(half)));
+    }
     static Manifold united(std::span<const Body> bodies) { return combined(bodies, OpType::Add); }
     static Manifold combined(std::span<const Body> bodies, OpType type) {
         if (bodies.size() == 1) return std::any_cast<const Manifold&>(bodies[0]);

@@ -119,9 +119,17 @@ private:
         return Expression::all_of(terms_of(bodies));
     }
 
+    static Expression exclusive(std::span<const Body> bodies) {
+        const std::vector<Expression> terms = terms_of(bodies);
+        Expression all = terms[0];
+        for (std::size_t i = 1; i < terms.size(); ++i) all = all ^ terms[i];
+        return all;
+    }
+
     static Expression expression(std::span<const Body> first, std::span<const Body> second,
                                  Operation operation) {
         if (second.empty()) {
+            if (operation == Operation::ExclusiveOr) return exclusive(first);
             if (operation == Operation::Intersection) return all_of(first);
             if (operation == Operation::Union || first.size() == 1) return any_of(first);
             return any_of(first.first(1)) - any_of(first.subspan(1));
@@ -130,6 +138,7 @@ private:
         const Expression b = any_of(second);
         if (operation == Operation::Union) return a | b;
         if (operation == Operation::Intersection) return a & b;
+        if (operation == Operation::ExclusiveOr) return a ^ b;
         return a - b;
     }
 

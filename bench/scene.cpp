@@ -30,7 +30,7 @@ using trisect::PolygonMesh;
 
 constexpr Matrix identity{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 const std::vector<Operation> all_operations{Operation::Union, Operation::Intersection,
-                                            Operation::Difference};
+                                            Operation::Difference, Operation::ExclusiveOr};
 
 [[noreturn]] void unknown(const std::string& name) {
     throw trisect::UsageError("no such scene: " + name);
@@ -517,9 +517,12 @@ const char* name_of(Operation operation) {
             return "union";
         case Operation::Intersection:
             return "intersection";
-        default:
-            return "difference";
+        case Operation::ExclusiveOr:
+            return "xor";
+        case Operation::Difference:
+            break;
     }
+    return "difference";
 }
 
 std::optional<Operation> operation_of(const std::string& name) {

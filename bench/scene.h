@@ -14,9 +14,9 @@
 
 namespace bench {
 
-enum class Operation { Union, Intersection, Difference };
+enum class Operation { Union, Intersection, Difference, ExclusiveOr };
 
-/// "union", "intersection", "difference".
+/// "union", "intersection", "difference", "xor".
 [[nodiscard]] const char* name_of(Operation operation);
 [[nodiscard]] std::optional<Operation> operation_of(const std::string& name);
 

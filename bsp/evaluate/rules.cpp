@@ -20,6 +20,7 @@
 #include <trisect/bsp/half_spaces/between_half_spaces.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
+#include <trisect/bsp/many_meshes/parity/exclusive_or_without_tree.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/contract.h>
 
@@ -161,29 +162,42 @@ bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
     return are_two_meshes(formula, solids, options);
 }
 
+// Of facets at these quarters of all lists.
+template <class Test>
+bool are_all_at(const SolidStates& solids, std::initializer_list<std::size_t> quarters,
+                const Test& test) {
+    return std::ranges::all_of(solids, [&](const auto& s) {
+        const PolygonList& polygons = s->root().node->polygons();
+        return std::ranges::all_of(
+            quarters, [&](std::size_t q) { return test(polygons[q * (polygons.size() - 1) / 4]); });
+    });
+}
+
+// Spheres may end in caps.
+bool are_mostly_across_axes(const SolidStates& solids) {
+    return are_all_at(solids, {0, 4, 2, 1, 3},
+                      [](const PolygonRef& r) { return is_axis_polygon(r); });
+}
+
 // Where facets across the axes, or few of prisms in one place, have planes in common, one leaf has
 // them all. But prisms whose caps meet are no arrangement of segments, and solids within each other
 // are compared with their neighbours.
 bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateSettings& options) {
     if (!are_many_meshes(formula, solids, options)) return false;
-    const auto some_are = [&](std::initializer_list<std::size_t> quarters, auto test) {
-        return std::ranges::all_of(solids, [&](const auto& s) {
-            const PolygonList& polygons = s->root().node->polygons();
-            return std::ranges::all_of(quarters, [&](std::size_t q) {
-                return test(polygons[q * (polygons.size() - 1) / 4]);
-            });
-        });
-    };
-    // Spheres may end in caps.
-    if (some_are({0, 4, 2, 1, 3}, [](const PolygonRef& r) { return is_axis_polygon(r); }))
-        return are_nested(solids);
+    if (are_mostly_across_axes(solids)) return are_nested(solids);
     if (!do_fill_one_place(solids) || do_stand_on_each_other(solids)) return true;
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
     return all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons ||
            all > solids.size() * few_of_prism ||
-           !some_are({0, 4}, [](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
+           !are_all_at(solids, {0, 4},
+                       [](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
+}
+
+bool is_parity_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
+                             const EvaluateSettings& options) {
+    return is_exclusive_or_of_many(formula, solids, options) && !are_mostly_across_axes(solids);
 }
 
 // --- The table.
@@ -199,7 +213,7 @@ constexpr LeafRule by_doubles(std::uint32_t reach, bool (*applies)(const CellVie
 
 using Stats = EvaluateCounters;
 
-constexpr std::size_t formula_rows = 4;
+constexpr std::size_t formula_rows = 5;
 constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
@@ -218,6 +232,11 @@ constexpr std::array all_rules{
          "planes, none through a corner; no work limit",
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
+    Rule{"exclusive or of many",
+         "⊕ of three imported meshes or more, none with an index, not all across the axes; "
+         "no limits",
+         "uncrossed facets, outlines", &Stats::filtered_leaves,
+         FormulaRule{&is_parity_beyond_leaves, &evaluate_exclusive_or_without_tree}},
     Rule{
         "many meshes",
         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "

@@ -19,10 +19,12 @@
 // One of many is a union, an intersection, or one less all others, or these of each other, of three
 // to eight operands or their complements, of which some are copies moved along the axes. It is
 // evaluated pair by pair without a tree by one, two and four threads, in special position as well.
+// An exclusive one is an exclusive or of such, evaluated likewise.
 //
 //     small_grid_booleans [--seed S] [--pairs N] [--formulas M] [--chains K] [--many L]
-//                         [--threads T] [--fractions 1] [--only-pair I] [--only-formula I]
-//                         [--only-chain I] [--only-many I]
+//                         [--exclusive E] [--threads T] [--fractions 1] [--only-pair I]
+//                         [--only-formula I]
+//                         [--only-chain I] [--only-many I] [--only-exclusive I]
 //
 // With --fractions 1 each operand is put on a lattice whose unit is 2^0, 2^2, 2^4, 2^8, 2^24, 2^56
 // or 2^70, so that its coordinates have so many bits behind the point: the same sets, on all kinds
@@ -73,12 +75,14 @@ struct Options {
     std::uint64_t formulas = 30;
     std::uint64_t chains = 0;
     std::uint64_t many = 0;
+    std::uint64_t exclusive = 0;
     std::uint64_t threads = 1;
     bool fractions = false;
     std::optional<std::uint64_t> only_pair;
     std::optional<std::uint64_t> only_formula;
     std::optional<std::uint64_t> only_chain;
     std::optional<std::uint64_t> only_many;
+    std::optional<std::uint64_t> only_exclusive;
 };
 
 /// Shared by the processes.
@@ -88,6 +92,8 @@ struct Counters {
     std::atomic<std::uint64_t> operations;  // of all formulas
     std::atomic<std::uint64_t> chains;
     std::atomic<std::uint64_t> many;
+    std::atomic<std::uint64_t> exclusive;
+    std::atomic<std::uint64_t> exclusive_pairwise;
     std::atomic<std::uint64_t> pairwise;            // of them
     std::atomic<std::uint64_t> doubtful;            // pairs of facets in those
     std::atomic<std::uint64_t> mixed_leaves;        // of all chains
@@ -443,16 +449,41 @@ reference::Expression nested_formula(reference::Random& random, std::size_t firs
     return Expression::node(kind, {std::move(left), nested_formula(random, middle, end, operands)});
 }
 
-void run_many(const Options& options, std::uint64_t index, Counters& counters) {
-    reference::Random random = generator(options.seed, 3, index);
-    const int bits = fraction_bits(options, random);
-    std::vector<reference::Operand> operands = many_operands(random);
-    const bool is_nested = index % 3 == 2;
-    if (is_nested && index % 2 == 0)
+reference::Expression exclusive_or(reference::Random& random, std::size_t n) {
+    using reference::Expression;
+    std::vector<Expression> terms;
+    for (std::size_t i = 0; i < n; ++i) {
+        const Expression leaf = Expression::leaf(i);
+        terms.push_back(random.chance(1, 6) ? Expression::node(Kind::Complement, {leaf}) : leaf);
+    }
+    return Expression::node(Kind::Xor, terms);
+}
+
+/// Operands, and what is made of them.
+struct ManyCase {
+    std::vector<reference::Operand> operands;
+    reference::Expression expression;
+};
+
+ManyCase many_case(reference::Random& random, std::uint64_t index, bool is_exclusive) {
+    ManyCase out{many_operands(random), {}};
+    auto& operands = out.operands;
+    const bool is_nested = !is_exclusive && index % 3 == 2;
+    if ((is_nested || is_exclusive) && index % 2 == 0)
         for (reference::Operand& o : operands) o = engines::mapped(o, random);
     const std::size_t leaves = operands.size() + (index % 4 == 3 ? 1 + random.below(4) : 0);
-    const auto expression = is_nested ? nested_formula(random, 0, leaves, operands.size())
-                                      : flat_formula(random, operands.size());
+    if (is_exclusive)
+        out.expression = exclusive_or(random, operands.size());
+    else
+        out.expression = is_nested ? nested_formula(random, 0, leaves, operands.size())
+                                   : flat_formula(random, operands.size());
+    return out;
+}
+
+void run_many(const Options& options, std::uint64_t index, bool is_exclusive, Counters& counters) {
+    reference::Random random = generator(options.seed, is_exclusive ? 4 : 3, index);
+    const int bits = fraction_bits(options, random);
+    const auto [operands, expression] = many_case(random, index, is_exclusive);
     std::string why;
     try {
         std::vector<trisect::Solid> solids;
@@ -463,21 +494,23 @@ void run_many(const Options& options, std::uint64_t index, Counters& counters) {
         std::uint64_t doubtful = 0;
         const auto difference = engines::pairwise_difference(engines::formula(expression, solids),
                                                              {}, wanted, doubtful);
-        counters.pairwise += difference ? 1U : 0U;
+        (is_exclusive ? counters.exclusive_pairwise : counters.pairwise) += difference ? 1U : 0U;
         counters.doubtful += doubtful;
         why = difference.value_or("");
     } catch (const std::exception& e) {
         why = std::string("exception: ") + e.what();
     }
-    ++counters.many;
+    ++(is_exclusive ? counters.exclusive : counters.many);
     if (why.empty()) return;
     ++counters.disagreements;
-    std::printf("DISAGREEMENT %s, %s: %s\n", case_name(options, "--only-many", index).c_str(),
+    const char* const option = is_exclusive ? "--only-exclusive" : "--only-many";
+    std::printf("DISAGREEMENT %s, %s: %s\n", case_name(options, option, index).c_str(),
                 reference::to_string(expression).c_str(), why.c_str());
     std::fflush(stdout);
 }
 
-/// Cases are the pairs, then the formulas, then the chains, then those of many.
+/// Cases are the pairs, then the formulas, then the chains, then those of many, then
+/// exclusive ones.
 void run_case(const Options& options, std::uint64_t index, Counters& counters) {
     if (index < options.pairs)
         run_pair(options, index, counters);
@@ -485,8 +518,11 @@ void run_case(const Options& options, std::uint64_t index, Counters& counters) {
         run_formula(options, index - options.pairs, counters);
     else if (index < options.pairs + options.formulas + options.chains)
         run_chain(options, index - options.pairs - options.formulas, counters);
-    else
-        run_many(options, index - options.pairs - options.formulas - options.chains, counters);
+    else {
+        const std::uint64_t many = index - options.pairs - options.formulas - options.chains;
+        const bool is_exclusive = many >= options.many;
+        run_many(options, is_exclusive ? many - options.many : many, is_exclusive, counters);
+    }
 }
 
 std::string name_of_case(const Options& options, std::uint64_t index) {
@@ -495,7 +531,9 @@ std::string name_of_case(const Options& options, std::uint64_t index) {
     if (index < options.formulas) return case_name(options, "--only-formula", index);
     index -= options.formulas;
     if (index < options.chains) return case_name(options, "--only-chain", index);
-    return case_name(options, "--only-many", index - options.chains);
+    index -= options.chains;
+    if (index < options.many) return case_name(options, "--only-many", index);
+    return case_name(options, "--only-exclusive", index - options.many);
 }
 
 /// The cases next_case, next_case + threads, ...
@@ -503,7 +541,8 @@ pid_t start_worker(const Options& options, Progress& progress, Counters& counter
     std::fflush(stdout);
     const pid_t child = fork();
     if (child != 0) return child;
-    const std::uint64_t cases = options.pairs + options.formulas + options.chains + options.many;
+    const std::uint64_t cases =
+        options.pairs + options.formulas + options.chains + options.many + options.exclusive;
     while (progress.next_case < cases) {
         run_case(options, progress.next_case, counters);
         progress.next_case += options.threads;
@@ -554,6 +593,8 @@ void print(const Counters& c) {
     row("of those, of meshes that were not cut", c.conforming);
     row("formulas of many", c.many);
     row("of those, done pair by pair without a tree", c.pairwise);
+    row("exclusive ones", c.exclusive);
+    row("of those, done without a tree", c.exclusive_pairwise);
     row("pairs of facets in special position in those", c.doubtful);
     row("results of the cell tree compared with the naive engine", c.results);
     row("the same, formulas step by step", c.stepwise);
@@ -585,6 +626,10 @@ std::optional<Options> parse(int argc, char** argv) {
             out.chains = value;
         else if (name == "--many")
             out.many = value;
+        else if (name == "--exclusive")
+            out.exclusive = value;
+        else if (name == "--only-exclusive")
+            out.only_exclusive = value;
         else if (name == "--only-many")
             out.only_many = value;
         else if (name == "--threads")
@@ -610,9 +655,10 @@ int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
         std::fprintf(stderr,
-                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--chains K] [--many L]\n"
+                     "usage: %s [--seed S] [--pairs N] [--formulas M] [--chains K] [--many L] "
+                     "[--exclusive E]\n"
                      "       [--threads T] [--fractions 1] [--only-pair I] [--only-formula I]\n"
-                     "       [--only-chain I] [--only-many I]\n",
+                     "       [--only-chain I] [--only-many I] [--only-exclusive I]\n",
                      argv[0]);
         return 2;
     }
@@ -625,7 +671,9 @@ int main(int argc, char** argv) {
     else if (options->only_chain)
         run_chain(*options, *options->only_chain, counters);
     else if (options->only_many)
-        run_many(*options, *options->only_many, counters);
+        run_many(*options, *options->only_many, false, counters);
+    else if (options->only_exclusive)
+        run_many(*options, *options->only_exclusive, true, counters);
     else
         run_all(*options, counters);
     print(counters);

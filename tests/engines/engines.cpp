@@ -19,6 +19,7 @@
 #include <trisect/bsp/evaluate/rules.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
+#include <trisect/bsp/many_meshes/parity/exclusive_or_without_tree.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
@@ -318,13 +319,16 @@ std::optional<std::string> pairwise_difference(const trisect::Expression& expres
         const std::string why = why_not(*with_sheets, mesh_of(*with_sheets));
         if (!why.empty()) return "with sheets: " + why;
     }
+    const FormulaRule many{&may_be_many_meshes, &evaluate_many_without_tree};
+    const FormulaRule parity{&is_exclusive_or_of_many, &evaluate_exclusive_or_without_tree};
+    const bool is_parity = is_exclusive_or_of_many(
+        t.formula, states, EvaluateSettings{options, usual_splitting_offset});
     for (const std::uint32_t threads : {1U, 2U, 4U}) {
         trisect::EvaluateOptions with = options;
         with.threads = threads;
         EvaluateStats stats;
-        const auto state =
-            evaluate_by({&may_be_many_meshes, &evaluate_many_without_tree}, t.formula, states,
-                        EvaluateSettings{with, usual_splitting_offset}, stats);
+        const auto state = evaluate_by(is_parity ? parity : many, t.formula, states,
+                                       EvaluateSettings{with, usual_splitting_offset}, stats);
         if (state == nullptr && threads == 1) return std::nullopt;
         if (state == nullptr) return "not by " + std::to_string(threads) + " threads";
         const auto mesh = mesh_of(*state);
