@@ -96,9 +96,9 @@ TEST(ExclusiveOrOfMany, TakesWhatTwoOfThemTake) {
     for (int i = 0; i < n; ++i) {
         trisect::PolygonMesh mesh = trisect::make_icosphere(100000, 2);
         for (auto& p : mesh.points) {
-            p.x = std::round(p.x + 31100 * std::cos(1.1 * i));
-            p.y = std::round(p.y + 31700 * std::sin(1.1 * i));
-            p.z = std::round(p.z + 1300 * i);
+            p[0] = std::round(p[0] + 31100 * std::cos(1.1 * i));
+            p[1] = std::round(p[1] + 31700 * std::sin(1.1 * i));
+            p[2] = std::round(p[2] + 1300 * i);
         }
         solids.push_back(trisect::Solid::from_mesh(mesh));
     }
