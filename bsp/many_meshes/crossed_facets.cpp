@@ -119,7 +119,8 @@ bool CrossedFacetsFinder::solve(Cell& cell) {
 // Takes out what does not meet the other ones' boxes in the cell; false when nothing is left.
 bool CrossedFacetsFinder::leave_out(Cell& cell) const {
     for (std::size_t i = 0; i < 2; ++i) {
-        OutlineBox reach = OutlineBox::none();
+        OutlineBox& reach = cell.reach;
+        reach = OutlineBox::none();
         for (const Item& item : cell.items[1 - i]) reach.add(item.box);
         for (std::size_t k = 0; k < 3; ++k) {
             reach.lo[k] = std::max(reach.lo[k], cell.bounds.lo[k]);
@@ -208,7 +209,7 @@ bool CrossedFacetsFinder::compare(const Cell& cell) {
     ++stats_->mixed_leaves;
     ++stats_->filtered_leaves;
     stats_->listed_polygons += count;
-    pairs_.start(count, cell.items[0][0].box.lo);
+    pairs_.start(count, cell.items[0][0].box.lo, cell.reach);
     for (const std::size_t i : second_first) {
         for (const Item& item : cell.items[i]) {
             const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];

@@ -48,6 +48,7 @@ private:
     using Items = std::array<std::vector<Item>, 2>;
     struct Cell {
         OutlineBox bounds;
+        OutlineBox reach;  ///< of what may cross
         Items items;
         bool stalled = false;
     };

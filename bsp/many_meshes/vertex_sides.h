@@ -23,16 +23,20 @@ public:
         ++turn_;
     }
     /// Begins a list. What was listed before since start() keeps its sides.
-    void start_list() { listed_.clear(); }
-    /// A vertex may come more than once.
+    void start_list() { count_ = 0; }
+    /// A vertex may come more than once. Without a branch by whether it does.
     void list(std::uint32_t v) {
+        if (count_ == listed_.size()) listed_.resize(2 * count_ + 64);
         Mark& m = marks_[v];
-        if (m.turn == turn_) return;
-        m = {turn_, v, Side::Unknown};
-        listed_.push_back(v);
+        const bool is_new = m.turn != turn_;
+        m = {turn_, is_new ? v : m.parent, is_new ? Side::Unknown : m.side};
+        listed_[count_] = v;
+        count_ += is_new ? 1 : 0;
     }
     /// Each once, in the order in which they came first.
-    [[nodiscard]] std::span<const std::uint32_t> listed() const { return listed_; }
+    [[nodiscard]] std::span<const std::uint32_t> listed() const {
+        return std::span(listed_).first(count_);
+    }
 
     /// \pre listed; so for all that follows
     [[nodiscard]] Side& of(std::uint32_t v) { return marks_[v].side; }
@@ -45,6 +49,7 @@ public:
     }
     /// Both lie on one side.
     void join(std::uint32_t a, std::uint32_t b) {
+        if (marks_[a].parent == marks_[b].parent) return;
         a = root(a);
         b = root(b);
         if (a != b) marks_[std::max(a, b)].parent = std::min(a, b);
@@ -66,6 +71,7 @@ private:
     };
     PoolVector<Mark> marks_;  // by vertex
     std::vector<std::uint32_t> listed_;
+    std::size_t count_ = 0;  // of these
     std::uint32_t turn_ = 0;
 };
 

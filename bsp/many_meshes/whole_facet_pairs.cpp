@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes first, four of the second list at once; then planes in single precision, also four at once,
+// Boxes first, sixteen of the second list at once; then planes in single precision, four at once,
 // which part most pairs or find how they cross; the rest is for doubles.
 //
 // In single precision coordinates are taken from a point near all facets. The difference carries a
 // rounding of 2^-53 of itself, which is far below what single precision rounds: its bounds
-// (facet_rows.cpp) have room for it, and so have those of boxes.
+// (facet_rows.cpp) have room for it.
 
 #include <trisect/bsp/many_meshes/whole_facet_pairs.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include <trisect/kernel/number/vector3.h>
 
@@ -30,36 +31,34 @@ constexpr std::array<std::uint8_t, 16> boxes_met{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2
 
 }  // namespace
 
-void WholeFacetPairs::start(std::size_t count, const Vector3& near) {
+void WholeFacetPairs::start(std::size_t count, const Vector3& near, const OutlineBox& reach) {
     near_ = near;
-    facets_.clear();
-    facets_.reserve(count);
+    names_.clear();
+    names_.reserve(count);
+    if (facets_.size() < count) facets_.resize(count);
     second_ = 0;
-    boxes_.clear();
+    boxes_.start(reach.lo, reach.hi);
     probes_.clear();
     known_planes_ = {};
     pairs_.clear();
     crossings_.clear();
     doubtful_.clear();
-    box_pairs_.clear();
+    box_pairs_listed_ = 0;
     box_pair_count_ = 0;
 }
 
 void WholeFacetPairs::add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box) {
-    Facet& f = facets_.emplace_back();
-    f.corners = meshes_.corners(slot, number - meshes_.operands->operands[slot].first);
-    const Vector3 lo = minus(box.lo, near_);
-    const Vector3 hi = minus(box.hi, near_);
+    names_.push_back({slot, number});
     if (second_ == 0) {
-        boxes_.add(lo, hi, 1);
+        boxes_.add(box.lo, box.hi);
     } else {
-        probes_.push_back(BoxRows::probe(lo, hi, 0));
+        probes_.push_back(boxes_.narrow(box.lo, box.hi));
     }
 }
 
 bool WholeFacetPairs::find() {
     list_box_pairs();
-    if (box_pairs_.empty()) return true;
+    if (box_pairs_listed_ == 0) return true;
     if (!make_planes()) return false;
     compare_planes();
     relate_listed();
@@ -67,42 +66,61 @@ bool WholeFacetPairs::find() {
 }
 
 void WholeFacetPairs::list_box_pairs() {
-    boxes_.add_hulls();
-    has_partner_.assign(std::max(4 * boxes_.row_count(), facets_.size()), 0);
+    met_.resize(boxes_.word_count());
+    are_met_.assign(boxes_.word_count(), 0);
+    has_partner_.assign(names_.size(), 0);
     for (std::size_t i = 0; i < probes_.size(); ++i) {
-        const std::size_t before = box_pairs_.size();
-        static_cast<void>(boxes_.visit_meeting(0, probes_[i], [&](std::size_t row, unsigned met) {
-            box_pairs_.push_back(
-                {static_cast<std::uint32_t>(second_ + i), static_cast<std::uint32_t>(row), met});
-            return true;
-        }));
-        for (std::size_t k = before; k < box_pairs_.size(); ++k) {
-            box_pair_count_ += boxes_met[box_pairs_[k].met];
-            for (unsigned met = box_pairs_[k].met; met != 0; met &= met - 1)
-                has_partner_[4 * box_pairs_[k].row +
-                             static_cast<std::size_t>(std::countr_zero(met))] = 1;
-        }
-        if (box_pairs_.size() > before) has_partner_[second_ + i] = 1;
+        boxes_.find_meeting(probes_[i], met_);
+        list_met(second_ + i);
     }
+    for (std::size_t j = 0; j < second_; ++j)
+        has_partner_[j] = static_cast<std::uint8_t>(are_met_[j / 64] >> j % 64 & 1U);
+}
+
+// By four.
+void WholeFacetPairs::list_met(std::size_t first) {
+    const std::size_t before = box_pairs_listed_;
+    if (box_pairs_.size() < before + 16 * met_.size())
+        box_pairs_.resize(2 * (before + 16 * met_.size()));
+    BoxPairs* next = box_pairs_.data() + before;
+    for (std::size_t w = 0; w < met_.size(); ++w) {
+        std::uint64_t met = met_[w];
+        are_met_[w] |= met;
+        while (met != 0) {
+            const auto row = static_cast<std::uint32_t>(std::countr_zero(met)) / 4;
+            const auto four = static_cast<unsigned>(met >> 4 * row & 15U);
+            *next++ = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(16 * w) + row,
+                       four};
+            box_pair_count_ += boxes_met[four];
+            met &= ~(std::uint64_t{15} << 4 * row);
+        }
+    }
+    box_pairs_listed_ = static_cast<std::size_t>(next - box_pairs_.data());
+    has_partner_[first] = box_pairs_listed_ > before ? 1 : 0;
 }
 
 // Of those that have a partner. False where they are too far apart.
 bool WholeFacetPairs::make_planes() {
     Vector3 low = near_;
     Vector3 high = near_;
-    for (std::size_t i = 0; i < facets_.size(); ++i)
-        for (std::size_t c = 0; c < 3 && has_partner_[i] != 0; ++c)
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+        if (has_partner_[i] == 0) continue;
+        const auto [slot, number] = names_[i];
+        std::array<Vector3, 3>& corners = facets_[i].corners;
+        corners = meshes_.corners(slot, number - meshes_.operands->operands[slot].first);
+        for (const Vector3& c : corners)
             for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], facets_[i].corners[c][k]);
-                high[k] = std::max(high[k], facets_[i].corners[c][k]);
+                low[k] = std::min(low[k], c[k]);
+                high[k] = std::max(high[k], c[k]);
             }
+    }
     Vector3 extent;
     for (std::size_t k = 0; k < 3; ++k) {
         extent[k] = (high[k] - low[k]) * slightly_more;
         if (!(extent[k] < widest_extent)) return false;
     }
     planes_.start(extent);
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
         if (has_partner_[i] == 0) {
             planes_.skip();
             continue;
@@ -120,8 +138,8 @@ bool WholeFacetPairs::make_planes() {
 
 void WholeFacetPairs::compare_planes() {
     FacetRows::Probe facet;
-    std::size_t probed = facets_.size();
-    for (const BoxPairs& b : box_pairs_) {
+    std::size_t probed = names_.size();
+    for (const BoxPairs& b : std::span(box_pairs_).first(box_pairs_listed_)) {
         const std::size_t i = b.first;
         if (i != probed) facet = planes_.probe(i);
         probed = i;

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/leaf/doubles/box_rows.h>
 #include <trisect/bsp/leaf/doubles/facet_rows.h>
+#include <trisect/bsp/leaf/doubles/narrow_boxes.h>
 #include <trisect/bsp/leaf/doubles/triangle_relation.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 
@@ -22,11 +22,12 @@ class WholeFacetPairs {
 public:
     explicit WholeFacetPairs(const ManyMeshes& meshes) : meshes_(meshes) {}
 
-    /// Begins two lists, of so many facets together. `near`: a point near all of them.
-    void start(std::size_t count, const Vector3& near);
+    /// Begins two lists, of so many facets together. `near`: a point near all of them. `reach`:
+    /// boxes that meet, do so in a place that meets it.
+    void start(std::size_t count, const Vector3& near, const OutlineBox& reach);
     /// Facets of the second list come first.
     void add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box);
-    void end_second() { second_ = facets_.size(); }
+    void end_second() { second_ = names_.size(); }
     /// Facets of one plane do not cross, where they have the same number: by place in the order in
     /// which they were added, 0 where nothing is known.
     void leave_out_planes(std::span<const std::uint32_t> known) { known_planes_ = known; }
@@ -47,11 +48,17 @@ public:
     [[nodiscard]] std::size_t box_pairs() const { return box_pair_count_; }
 
 private:
+    struct Name {
+        std::uint32_t slot = 0;
+        std::uint32_t number = 0;
+    };
+    // Made of those that have a partner.
     struct Facet {
         std::array<Vector3, 3> corners;
         FilteredPlane plane;
     };
     void list_box_pairs();
+    void list_met(std::size_t first);
     [[nodiscard]] bool make_planes();
     void compare_planes();
     void relate_listed();
@@ -65,11 +72,13 @@ private:
     }
 
     const ManyMeshes& meshes_;
+    std::vector<Name> names_;
     std::vector<Facet> facets_;
     std::size_t second_ = 0;  // facets of the second list
     Vector3 near_{};
-    BoxRows boxes_;                       // of the second list
-    std::vector<BoxRows::Probe> probes_;  // of the first one
+    NarrowBoxes boxes_;                      // of the second list
+    std::vector<NarrowBoxes::Ends> probes_;  // of the first one
+    std::vector<std::uint64_t> met_;         // by one of these
     FacetRows planes_;
     std::span<const std::uint32_t> known_planes_;
     // A facet of the first list with four of the second one, of which some boxes meet.
@@ -79,6 +88,8 @@ private:
         unsigned met = 0;
     };
     std::vector<BoxPairs> box_pairs_;
+    std::size_t box_pairs_listed_ = 0;       // there is room for more
+    std::vector<std::uint64_t> are_met_;     // of the second list
     std::vector<std::uint8_t> has_partner_;  // by place
     std::vector<FacetRows::Pair> pairs_;     // that planes do not part, not yet related
     std::vector<Crossing> crossings_;

@@ -107,13 +107,22 @@ struct OutlineBox {
         }
         return beside;
     }
+    // Without branches: nobody foresees where a box ends.
     [[nodiscard]] bool contains(const OutlineBox& b) const {
-        return lo[0] <= b.lo[0] && b.hi[0] <= hi[0] && lo[1] <= b.lo[1] && b.hi[1] <= hi[1] &&
-               lo[2] <= b.lo[2] && b.hi[2] <= hi[2];
+        bool out = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            out &= lo[k] <= b.lo[k];
+            out &= b.hi[k] <= hi[k];
+        }
+        return out;
     }
     [[nodiscard]] bool meets(const OutlineBox& b) const {
-        return lo[0] <= b.hi[0] && b.lo[0] <= hi[0] && lo[1] <= b.hi[1] && b.lo[1] <= hi[1] &&
-               lo[2] <= b.hi[2] && b.lo[2] <= hi[2];
+        bool out = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            out &= lo[k] <= b.hi[k];
+            out &= b.lo[k] <= hi[k];
+        }
+        return out;
     }
 };
 
