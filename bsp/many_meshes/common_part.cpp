@@ -34,6 +34,17 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
+// Clearing writes all of it, which is much after a large one: then a small one is taken anew.
+void clear(FlatMap& map) {
+    constexpr std::size_t most_bytes = 4096;
+    constexpr std::size_t bytes_of_one = 256;
+    if (map.bytes() > most_bytes + bytes_of_one * map.size()) {
+        map = FlatMap();
+    } else {
+        map.clear();
+    }
+}
+
 }  // namespace
 
 class CommonPart::Steps {
@@ -157,7 +168,7 @@ void CommonPart::Steps::start(const Solid& first, const Solid& second) {
     edges_ = {first.edges, second.edges, store_.edges().size()};
     segments_.start(solids_[0], solids_[1]);
     made_.clear();
-    made_by_name_.clear();
+    clear(made_by_name_);
     stops_.clear();
     for (std::size_t i = 0; i < 2; ++i) {
         cuts_[i].clear();
@@ -274,18 +285,22 @@ void CommonPart::Steps::list_vertices(std::size_t solid) {
     sides_.start_list();
     for (const std::uint32_t f : near_[solid]) {
         const OutlinedSolid::Facet& facet = s.facets[f];
-        const std::uint32_t last = facet.first + facet.count - 1;
-        for (std::uint32_t e = facet.first; e <= last; ++e) sides_.list(s.edges[e].from);
-        bool is_pierced = !facet.whole;  // then it may have several outlines
-        for (std::uint32_t e = facet.first; e < last; ++e) {
-            if (stops_.has(e)) {
-                is_pierced = true;
-            } else {
-                sides_.join(s.edges[e].from, s.edges[e].to);
-            }
+        const OutlinedSolid::Edge* const edges = s.edges.data() + facet.first;
+        if (!facet.whole) {  // it may have several outlines
+            for (std::uint32_t i = 0; i < facet.count; ++i) sides_.list(edges[i].from);
+            for (std::uint32_t i = 0; i < facet.count; ++i)
+                if (!stops_.has(facet.first + i)) sides_.join(edges[i].from, edges[i].to);
+            continue;
         }
-        // Else it has joined all.
-        if (is_pierced && !stops_.has(last)) sides_.join(s.edges[last].from, s.edges[last].to);
+        const std::array<std::uint32_t, 3> corners{edges[0].from, edges[1].from, edges[2].from};
+        for (const std::uint32_t v : corners) sides_.list(v);
+        const bool is_pierced = stops_.has(facet.first);
+        const bool is_next_pierced = stops_.has(facet.first + 1);
+        if (!is_pierced) sides_.join(corners[0], corners[1]);
+        if (!is_next_pierced) sides_.join(corners[1], corners[2]);
+        // Else these have joined all.
+        if ((is_pierced || is_next_pierced) && !stops_.has(facet.first + 2))
+            sides_.join(corners[2], corners[0]);
     }
 }
 
@@ -316,23 +331,26 @@ bool CommonPart::Steps::mark_known(std::size_t solid) {
     return true;
 }
 
-// What is surely beyond the other solid's box is far out.
+// What is surely beyond the other solid's box is far out. It is looked at where nothing of what
+// hangs together has a side yet: then one vertex says it for all.
 void CommonPart::Steps::mark_beyond(std::size_t solid) {
     const OutlinedSolid& s = solids_[solid];
     const OutlineBox& other = solids_[1 - solid].box;
     const Side far = is_far_open(solid) ? Side::Open : Side::Closed;
-    for (const std::uint32_t v : sides_.listed())
-        if (sides_.of(v) == Side::Unknown && other.is_beside(s.vertices[v].at)) sides_.of(v) = far;
+    for (const std::uint32_t v : sides_.listed()) {
+        Side& side = sides_.of(sides_.root(v));
+        if (side == Side::Unknown && other.is_beside(s.vertices[v].at)) side = far;
+    }
 }
 
 bool CommonPart::Steps::find_sides(std::size_t solid) {
     list_vertices(solid);
     if (!mark_ends(solid) || !mark_known(solid)) return false;
-    mark_beyond(solid);
     for (const std::uint32_t v : sides_.listed())
         if (const Side side = sides_.of(v);
             side != Side::Unknown && !sides_.mark(sides_.root(v), side))
             return false;
+    mark_beyond(solid);
     for (const std::uint32_t v : sides_.listed()) {
         const std::uint32_t root = sides_.root(v);
         if (sides_.of(root) == Side::Unknown) {
@@ -340,7 +358,7 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
             if (!open) return false;
             sides_.of(root) = *open ? Side::Open : Side::Closed;
         }
-        if (!sides_.mark(v, sides_.of(root))) return false;
+        sides_.of(v) = sides_.of(root);
     }
     return true;
 }

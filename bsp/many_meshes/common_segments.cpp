@@ -31,7 +31,7 @@ void CommonSegments::start(const OutlinedSolid& first, const OutlinedSolid& seco
             plane_of_[i].resize(solids_[i]->facets.size());
 }
 
-FilteredPlane CommonSegments::plane(std::size_t solid, std::uint32_t place) {
+const FilteredPlane& CommonSegments::plane(std::size_t solid, std::uint32_t place) {
     MadePlane& made = plane_of_[solid][place];
     if (made.turn == turn_) return planes_[made.number];
     made = {turn_, static_cast<std::uint32_t>(planes_.size())};

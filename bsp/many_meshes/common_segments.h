@@ -41,8 +41,8 @@ public:
                             const FacetCrossing& crossing);
     /// In their order along the crossing.
     [[nodiscard]] std::span<const CommonSegment> segments() const { return segments_; }
-    /// Of one of the solids.
-    [[nodiscard]] FilteredPlane plane(std::size_t solid, std::uint32_t place);
+    /// Of one of the solids; good until the next one is made.
+    [[nodiscard]] const FilteredPlane& plane(std::size_t solid, std::uint32_t place);
     /// Of any facet.
     [[nodiscard]] FilteredPlane plane_of(const OutlinedSolid::Facet& facet) const;
 

@@ -39,9 +39,12 @@ constexpr std::array<std::size_t, 2> second_first{1, 0};
 
 // So that no other cell lists it.
 bool lies_within(const OutlineBox& box, const OutlineBox& bounds) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (!(bounds.lo[k] <= box.lo[k] && box.hi[k] < bounds.hi[k])) return false;
-    return true;
+    bool out = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        out &= bounds.lo[k] <= box.lo[k];
+        out &= box.hi[k] < bounds.hi[k];
+    }
+    return out;
 }
 
 // A triangle, cut by planes across the axes: in doubles, off by no more than its margin.
@@ -263,21 +266,20 @@ void CrossedFacetsFinder::decide(const Cell& cell) {
 // the whole facets may cross somewhere else.
 void CrossedFacetsFinder::keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
                                const std::array<FacetCrossing::End, 2>& ends) {
-    OutlineBox box = OutlineBox::none();
-    for (const FacetCrossing::End& end : ends) box.add(end.at);
-    bool is_once = false;
-    bool is_apart = false;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const OutlineBox& part = solids_[i]->boxes[places[i]];
-        is_once = is_once || lies_within(part, cell.bounds);
-        is_apart = is_apart || (!solids_[i]->facets[places[i]].whole && !part.meets(box));
+    const std::array facets{&solids_[0]->facets[places[0]], &solids_[1]->facets[places[1]]};
+    const std::array boxes{&solids_[0]->boxes[places[0]], &solids_[1]->boxes[places[1]]};
+    if (!facets[0]->whole || !facets[1]->whole) {
+        OutlineBox box = OutlineBox::none();
+        for (const FacetCrossing::End& end : ends) box.add(end.at);
+        for (std::size_t i = 0; i < 2; ++i)
+            if (!facets[i]->whole && !boxes[i]->meets(box)) return;
     }
-    if (is_apart || (!is_once && !known_.insert({places[0], places[1]}, 0).second)) return;
+    const bool is_once = lies_within(*boxes[0], cell.bounds) || lies_within(*boxes[1], cell.bounds);
+    if (!is_once && !known_.insert({places[0], places[1]}, 0).second) return;
     CrossedFacets& made = found_.emplace_back();
     made.places = places;
     made.crossing.ends = ends;
-    for (std::size_t k = 0; k < 2; ++k)
-        made.crossing.facets[k] = solids_[k]->facets[places[k]].number;
+    for (std::size_t k = 0; k < 2; ++k) made.crossing.facets[k] = facets[k]->number;
 }
 
 }  // namespace trisect::detail

@@ -774,6 +774,19 @@ struct CutFacet {
     std::uint32_t count = 0;
 };
 
+// Groups of operands leave them in an order of their own, those of one operand mostly ascending.
+void sort_by_number(PoolVector<CutFacet>& facets, std::size_t slots) {
+    if (std::ranges::is_sorted(facets, {}, &CutFacet::number)) return;
+    PoolVector<std::uint32_t> next(slots + 1, 0);
+    for (const CutFacet& f : facets) ++next[f.slot + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    PoolVector<CutFacet> sorted(facets.size());
+    for (const CutFacet& f : facets) sorted[next[f.slot]++] = f;
+    facets.swap(sorted);
+    if (!std::ranges::is_sorted(facets, {}, &CutFacet::number))
+        std::ranges::sort(facets, {}, &CutFacet::number);
+}
+
 // Whole ones go to their operands. Groups of operands leave all in an order of their own.
 PoolVector<CutFacet> sort_facets(const Parts& parts, const Crossings& operands,
                                  UndividedMeshes& out) {
@@ -791,8 +804,7 @@ PoolVector<CutFacet> sort_facets(const Parts& parts, const Crossings& operands,
                 cut.push_back({f.number, f.slot, i, f.first, f.count});
     for (UncrossedFacets& u : out.uncrossed)
         if (!std::ranges::is_sorted(u.facets)) std::ranges::sort(u.facets);
-    if (!std::ranges::is_sorted(cut, {}, &CutFacet::number))
-        std::ranges::sort(cut, {}, &CutFacet::number);
+    sort_by_number(cut, operands.operands.size());
     return cut;
 }
 
@@ -807,18 +819,24 @@ void add_cut_facets(OutlinedFacets& outlined, const Parts& parts, std::span<cons
     for (const OutlinedSolid& p : parts)
         first_vertices.push_back(first_vertices.back() +
                                  static_cast<std::uint32_t>(p.vertices.size()));
-    // Lines lie anywhere in memory.
-    constexpr std::size_t ahead = 12;
-    const auto look_ahead = [](std::span<const OutlinedSolid::Edge> of_part, std::size_t e) {
-        if (e + ahead < of_part.size()) __builtin_prefetch(of_part[e + ahead].origin.line());
+    // Edges of a facet, and their lines, lie anywhere in memory.
+    constexpr std::size_t ahead = 8;
+    const auto look_ahead = [&](std::size_t i) {
+        if (i + 2 * ahead < cut.size())
+            __builtin_prefetch(&parts[cut[i + 2 * ahead].part].edges[cut[i + 2 * ahead].first]);
+        if (i + ahead >= cut.size()) return;
+        const CutFacet& f = cut[i + ahead];
+        for (const OutlinedSolid::Edge& e : parts[f.part].edges.subspan(f.first, f.count))
+            __builtin_prefetch(e.origin.line());
     };
+    std::size_t number = 0;
     for (const CutFacet& f : cut) {
+        look_ahead(number++);
         outlined.facets.push_back(
             {f.number, static_cast<std::uint32_t>(outlined.edges.size()), f.count});
         const std::span<const OutlinedSolid::Edge> of_part = parts[f.part].edges;
         const std::uint32_t vertex = first_vertices[f.part];
         for (std::size_t i = f.first; i < std::size_t{f.first} + f.count; ++i) {
-            look_ahead(of_part, i);
             const OutlinedSolid::Edge& e = of_part[i];
             const FacetCrossing* line = e.origin.line();
             const std::uint32_t cutter =

@@ -28,10 +28,12 @@ public:
     void list(std::uint32_t v) {
         if (count_ == listed_.size()) listed_.resize(2 * count_ + 64);
         Mark& m = marks_[v];
-        const bool is_new = m.turn != turn_;
-        m = {turn_, is_new ? v : m.parent, is_new ? Side::Unknown : m.side};
+        const std::uint32_t is_new = m.turn != turn_ ? 1 : 0;
+        const std::uint32_t old = is_new - 1;  // all bits or none
+        const auto side = static_cast<std::uint32_t>(m.side) & old;
+        m = {turn_, (m.parent & old) | (v & ~old), static_cast<Side>(side)};
         listed_[count_] = v;
-        count_ += is_new ? 1 : 0;
+        count_ += is_new;
     }
     /// Each once, in the order in which they came first.
     [[nodiscard]] std::span<const std::uint32_t> listed() const {

@@ -84,9 +84,9 @@ struct OutlineBox {
     /// A box that any other one enlarges.
     [[nodiscard]] static OutlineBox none();
     void add(const Approximation& p) {
+        const double rounding = rounding_of(p);
         for (std::size_t k = 0; k < 3; ++k) {
-            // What is rounded after the error is added.
-            const double margin = p.error == 0 ? 0 : p.error + 0x1p-51 * std::fabs(p.c[k]);
+            const double margin = p.error + rounding * std::fabs(p.c[k]);
             lo[k] = std::min(lo[k], p.c[k] - margin);
             hi[k] = std::max(hi[k], p.c[k] + margin);
         }
@@ -100,8 +100,9 @@ struct OutlineBox {
     /// Whether a point is surely outside: the box with it alone would not meet this one.
     [[nodiscard]] bool is_beside(const Approximation& p) const {
         bool beside = false;
+        const double rounding = rounding_of(p);
         for (std::size_t k = 0; k < 3; ++k) {
-            const double margin = p.error == 0 ? 0 : p.error + 0x1p-51 * std::fabs(p.c[k]);
+            const double margin = p.error + rounding * std::fabs(p.c[k]);
             beside |= p.c[k] + margin < lo[k];
             beside |= p.c[k] - margin > hi[k];
         }
@@ -123,6 +124,12 @@ struct OutlineBox {
             out &= b.lo[k] <= hi[k];
         }
         return out;
+    }
+
+private:
+    // Of a coordinate after the error is added; nothing is rounded where there is none.
+    [[nodiscard]] static double rounding_of(const Approximation& p) {
+        return p.error == 0 ? 0 : 0x1p-51;
     }
 };
 
