@@ -8,7 +8,7 @@
 #include <span>
 
 #include <trisect/bsp/cells/work_budget.h>
-#include <trisect/bsp/many_meshes/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/outline_store.h>
 #include <trisect/bsp/many_meshes/special_position.h>
 #include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/pool_allocator.h>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/parity/pierced_edges.h>
 #include <trisect/kernel/support/pool_allocator.h>
 

@@ -17,7 +17,7 @@
 
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/divide/reference_points.h>
-#include <trisect/bsp/many_meshes/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/outline_store.h>
 #include <trisect/bsp/many_meshes/parity/all_crossings.h>
 #include <trisect/bsp/many_meshes/parity/parity_outlines.h>
 #include <trisect/kernel/support/deep_recursion.h>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/outlined_facets.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/parity/corner_parities.h>
 #include <trisect/bsp/many_meshes/parity/pierced_edges.h>
 #include <trisect/bsp/many_meshes/parity/segment_meetings.h>

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>

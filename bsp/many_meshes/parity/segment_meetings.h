@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
-#include <trisect/bsp/many_meshes/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/shifted_points.h>
 #include <trisect/bsp/many_meshes/special_position.h>
 #include <trisect/kernel/support/per_thread.h>
