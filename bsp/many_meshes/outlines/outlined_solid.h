@@ -108,7 +108,7 @@ struct OutlineBox {
         }
         return beside;
     }
-    // Without branches: nobody foresees where a box ends.
+    // Without branches: they would be foreseen wrongly.
     [[nodiscard]] bool contains(const OutlineBox& b) const {
         bool out = true;
         for (std::size_t k = 0; k < 3; ++k) {
