@@ -173,7 +173,7 @@ CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell)
         double below = 1;
         double above = 1;
         for (std::size_t i = 0; i < 2; ++i) {
-            const std::vector<Item>& items = cell.items[i];
+            const PoolVector<Item>& items = cell.items[i];
             auto& [first, second] = s.counts[i];
             for (const Item& item : items) {
                 first += item.box.lo[k] < s.at ? 1 : 0;

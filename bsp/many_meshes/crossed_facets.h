@@ -45,7 +45,7 @@ private:
         OutlineBox box;  ///< of what may lie in the cell
         std::uint32_t place = 0;
     };
-    using Items = std::array<std::vector<Item>, 2>;
+    using Items = std::array<PoolVector<Item>, 2>;
     struct Cell {
         OutlineBox bounds;
         OutlineBox reach;  ///< of what may cross
