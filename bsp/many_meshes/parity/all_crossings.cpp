@@ -13,7 +13,7 @@ namespace trisect::detail {
 namespace {
 
 // Fewer facets are not worth a thread of their own.
-constexpr std::size_t parallel_facets = 2000;
+constexpr std::size_t facets_of_a_task = 2000;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ bool AllCrossings::find_among(std::size_t first, std::size_t end, Pairs& out,
     const auto above = [&] { done[1] = find_among(middle, end, others[0], made[1]); };
     const auto between = [&] { done[2] = find_between(first, middle, end, others[1], stats); };
     const bool is_parallel =
-        parallel_ && view(first, end).facets.size() >= parallel_facets && end - first > 2;
+        parallel_ && view(first, end).facets.size() >= facets_of_a_task && end - first > 2;
     if (is_parallel) {
         both_at_once([&] { both_at_once(above, between); }, below);
     } else {

@@ -27,7 +27,7 @@ namespace trisect::detail {
 
 namespace {
 
-const Source& source_of(const SolidState& solid) {
+const Source& mesh_of_operand(const SolidState& solid) {
     return *solid.root().node->polygons().whole_source();
 }
 
@@ -93,7 +93,7 @@ private:
     void add_meshes(const SolidStates& solids) {
         Box all;
         for (const auto& s : solids) {
-            const Source& source = source_of(*s);
+            const Source& source = mesh_of_operand(*s);
             meshes_.slots.insert(meshes_.slots.end(), source.facet_count(),
                                  static_cast<std::uint32_t>(meshes_.sources.size()));
             meshes_.sources.push_back(&source);
@@ -221,10 +221,10 @@ bool is_exclusive_or_of_many(const Residual::Ref& formula, const SolidStates& so
         !crossing_operands(solids) || !ParityFormula(solids.size()).read(*formula))
         return false;
     std::size_t facets = 0;
-    for (const auto& s : solids) facets += source_of(*s).facet_count();
+    for (const auto& s : solids) facets += mesh_of_operand(*s).facet_count();
     return facets < most_facets && std::ranges::all_of(solids, [](const auto& s) {
                return s->root().node->refinement() == nullptr &&
-                      lies_outside(s->root().node->reference(), source_of(*s).box());
+                      lies_outside(s->root().node->reference(), mesh_of_operand(*s).box());
            });
 }
 

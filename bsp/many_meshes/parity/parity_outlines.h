@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// ParityOutlines: outlines of the parts into which many meshes cut each other, by parity.
+// ParityOutlines: outlines of what meshes cut each other into.
 #pragma once
 
 #include <array>

@@ -20,8 +20,8 @@ namespace trisect::detail {
 
 namespace {
 
-constexpr std::size_t least_facets = 256;
-constexpr std::size_t least_pairs = 1024;
+constexpr std::size_t facets_of_a_part = 256;
+constexpr std::size_t pairs_of_a_part = 1024;
 
 }  // namespace
 
@@ -174,7 +174,7 @@ std::optional<std::uint32_t> SegmentMeetings::pair_of(std::uint32_t first,
 }
 
 bool SegmentMeetings::find_points(PoolVector<OutlineVertex>& vertices, std::uint32_t threads) {
-    const ParallelParts parts(meshes_.facet_count(), threads, least_facets);
+    const ParallelParts parts(meshes_.facet_count(), threads, facets_of_a_part);
     std::vector<PoolVector<Meeting>> found(parts.count());
     std::atomic<bool> is_known{true};
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -204,7 +204,7 @@ bool SegmentMeetings::find_points(PoolVector<OutlineVertex>& vertices, std::uint
 
 bool SegmentMeetings::sort(std::span<const OutlineVertex> vertices, std::uint32_t threads) {
     std::atomic<bool> is_known{true};
-    ParallelParts(pairs_.size(), threads, least_pairs)
+    ParallelParts(pairs_.size(), threads, pairs_of_a_part)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             const ShiftedPoints exact(meshes_, special());
             for (std::size_t p = begin; p < end; ++p)
