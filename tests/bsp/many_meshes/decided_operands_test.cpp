@@ -118,8 +118,12 @@ TEST_F(DecidedOperands, OutsideOfAUnion) {
     const Decided found =
         decided(all(Kind::And, {all(Kind::Or, {large(0), large(1)}), union_of_small()}));
     for (std::size_t i = 0; i < small_.size(); ++i) {
-        if (found[i] != 0) EXPECT_TRUE(is_outside(i, 0) && is_outside(i, 1)) << i;
-        if (is_far_outside(i, 0) && is_far_outside(i, 1)) EXPECT_EQ(found[i], 1) << i;
+        if (found[i] != 0) {
+            EXPECT_TRUE(is_outside(i, 0) && is_outside(i, 1)) << i;
+        }
+        if (is_far_outside(i, 0) && is_far_outside(i, 1)) {
+            EXPECT_EQ(found[i], 1) << i;
+        }
     }
     EXPECT_GT(std::ranges::count(found, 1), 20);
 }
@@ -127,8 +131,12 @@ TEST_F(DecidedOperands, OutsideOfAUnion) {
 TEST_F(DecidedOperands, OutsideOfOneOfTwo) {
     const Decided found = decided(all(Kind::And, {large(0), large(1), union_of_small()}));
     for (std::size_t i = 0; i < small_.size(); ++i) {
-        if (found[i] != 0) EXPECT_TRUE(is_outside(i, 0) || is_outside(i, 1)) << i;
-        if (is_far_outside(i, 0) || is_far_outside(i, 1)) EXPECT_EQ(found[i], 1) << i;
+        if (found[i] != 0) {
+            EXPECT_TRUE(is_outside(i, 0) || is_outside(i, 1)) << i;
+        }
+        if (is_far_outside(i, 0) || is_far_outside(i, 1)) {
+            EXPECT_EQ(found[i], 1) << i;
+        }
     }
 }
 
@@ -136,8 +144,12 @@ TEST_F(DecidedOperands, SubtractedFromAUnion) {
     const Decided found = decided(all(
         Kind::And, {all(Kind::Or, {large(0), large(1)}), Residual::negation(union_of_small())}));
     for (std::size_t i = 0; i < small_.size(); ++i) {
-        if (found[i] != 0) EXPECT_TRUE(is_outside(i, 0) && is_outside(i, 1)) << i;
-        if (is_far_outside(i, 0) && is_far_outside(i, 1)) EXPECT_EQ(found[i], 1) << i;
+        if (found[i] != 0) {
+            EXPECT_TRUE(is_outside(i, 0) && is_outside(i, 1)) << i;
+        }
+        if (is_far_outside(i, 0) && is_far_outside(i, 1)) {
+            EXPECT_EQ(found[i], 1) << i;
+        }
     }
 }
 

@@ -138,7 +138,9 @@ TEST_F(SettledParts, HaveSharedVerticesWhereTheyMeetOthers) {
     look(all);
     for (const auto& part : all.settled) look(part->view());
     for (const auto& [name, count] : parts_with) {
-        if (count > 1) EXPECT_EQ(flagged[name], count);
+        if (count > 1) {
+            EXPECT_EQ(flagged[name], count);
+        }
     }
     EXPECT_EQ(parts_with.size(), names_.size());
     expect_all_facets();
