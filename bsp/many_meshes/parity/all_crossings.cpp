@@ -41,8 +41,10 @@ bool AllCrossings::find(Pairs& out, EvaluateStats& stats) {
 OutlinedSolid AllCrossings::view(std::size_t first, std::size_t end) const {
     Solid all = solids_[first];
     for (std::size_t i = first + 1; i < end; ++i) all.box.add(solids_[i].box);
-    return end == solids_.size() ? store_.view(all, meshes_.facet_count())
-                                 : store_.view(all, solids_[end].facets);
+    if (end < solids_.size()) return store_.view(all, solids_[end]);
+    Solid behind = store_.empty_solid(true);
+    behind.facets = meshes_.facet_count();
+    return store_.view(all, behind);
 }
 
 bool AllCrossings::find_among(std::size_t first, std::size_t end, Pairs& out,

@@ -135,7 +135,7 @@ private:
         for (std::size_t i = 0; i < solids_.size(); ++i) {
             const bool is_last = i + 1 == solids_.size();
             views_.push_back(is_last ? store_.view(solids_[i])
-                                     : store_.view(solids_[i], solids_[i + 1].facets));
+                                     : store_.view(solids_[i], solids_[i + 1]));
         }
     }
     [[nodiscard]] bool find_pairs(std::uint32_t threads, EvaluateStats& stats) {

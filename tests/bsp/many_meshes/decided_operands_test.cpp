@@ -37,13 +37,13 @@ using Decided = std::vector<std::uint8_t>;
 
 constexpr double half = 0.02;  // of the length of a small box
 const std::array<Point3d, 2> centres{{{0.31, 0.02, 0.11}, {-0.35, 0.13, -0.17}}};
-constexpr double radius = 0.8;
+constexpr double large_radius = 0.8;
 
 // Two large spheres, and small boxes.
 class DecidedOperands : public testing::Test {
 protected:
     DecidedOperands() {
-        for (const Point3d& c : centres) add(trisect::make_icosphere(radius, 4), c);
+        for (const Point3d& c : centres) add(trisect::make_icosphere(large_radius, 4), c);
         std::mt19937 random(21511);
         std::uniform_real_distribution<double> at(-1.3, 1.3);
         for (int i = 0; i < 200; ++i) {
@@ -102,10 +102,10 @@ protected:
         return {std::sqrt(nearest), std::sqrt(farthest)};
     }
     [[nodiscard]] bool is_outside(std::size_t small, std::size_t large) const {
-        return distances(small, large)[0] > 0.99 * radius;  // of the faces of the sphere
+        return distances(small, large)[0] > 0.99 * large_radius;  // of the faces of the sphere
     }
     [[nodiscard]] bool is_far_outside(std::size_t small, std::size_t large) const {
-        return distances(small, large)[0] > radius + 0.15;
+        return distances(small, large)[0] > large_radius + 0.15;
     }
 
     std::vector<Point3d> small_;
