@@ -179,6 +179,16 @@ bool are_mostly_across_axes(const SolidStates& solids) {
                       [](const PolygonRef& r) { return is_axis_polygon(r); });
 }
 
+// Which are one leaf, if they are of one axis.
+bool are_few_of_prisms(const SolidStates& solids, const EvaluateSettings& options) {
+    std::uint64_t all = 0;
+    for (const auto& s : solids) all += s->root().node->size();
+    return all <= std::uint64_t{prism_leaf_factor} * options.leaf_polygons &&
+           all <= solids.size() * few_of_prism && are_all_at(solids, {0, 4}, [](const auto& r) {
+               return PrismFacets::may_be_of_prism(r);
+           });
+}
+
 // Where facets across the axes, or few of prisms in one place, have planes in common, one leaf has
 // them all. But prisms whose caps meet are no arrangement of segments, and solids within each other
 // are compared with their neighbours.
@@ -187,17 +197,27 @@ bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& sol
     if (!are_many_meshes(formula, solids, options)) return false;
     if (are_mostly_across_axes(solids)) return are_nested(solids);
     if (!do_fill_one_place(solids) || do_stand_on_each_other(solids)) return true;
-    std::uint64_t all = 0;
-    for (const auto& s : solids) all += s->root().node->size();
-    return all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons ||
-           all > solids.size() * few_of_prism ||
-           !are_all_at(solids, {0, 4},
-                       [](const PolygonRef& r) { return PrismFacets::may_be_of_prism(r); });
+    return !are_few_of_prisms(solids, options);
 }
 
 bool is_parity_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                              const EvaluateSettings& options) {
-    return is_exclusive_or_of_many(formula, solids, options) && !are_mostly_across_axes(solids);
+    return is_exclusive_or_of_many(formula, solids, options) && !are_mostly_across_axes(solids) &&
+           !are_few_of_prisms(solids, options);
+}
+
+// Faces of more than two planes through one line may cross there, without an edge in the line:
+// cells cut them.
+std::optional<SolidForm> exclusive_or_unless_touching(const Residual::Ref& formula,
+                                                      const SolidStates& solids,
+                                                      const EvaluateSettings& options,
+                                                      EvaluateStats& stats,
+                                                      std::shared_ptr<const LazyTree> tree) {
+    EvaluateStats made;
+    auto out = evaluate_exclusive_or_without_tree(formula, solids, options, made, std::move(tree));
+    if (!out || std::get<UndividedMeshes>(*out).may_have_straight_crossings) return std::nullopt;
+    stats = made;
+    return out;
 }
 
 // --- The table.
@@ -233,10 +253,10 @@ constexpr std::array all_rules{
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
     Rule{"exclusive or of many",
-         "⊕ of three imported meshes or more, none with an index, not all across the axes; "
-         "no limits",
+         "⊕ of three imported meshes or more, none with an index, not all across the axes, "
+         "nor few of prisms, that do not touch; no limits",
          "uncrossed facets, outlines", &Stats::filtered_leaves,
-         FormulaRule{&is_parity_beyond_leaves, &evaluate_exclusive_or_without_tree}},
+         FormulaRule{&is_parity_beyond_leaves, &exclusive_or_unless_touching}},
     Rule{
         "many meshes",
         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "
