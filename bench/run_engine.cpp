@@ -447,10 +447,11 @@ int run(Options options) {
 int main(int argc, char** argv) {
     const auto options = parse(argc, argv);
     if (!options) {
-        std::cerr << "usage: " << argv[0]
-                  << " --scene NAME [--op union|intersection|difference|xor] [--runs 5] [--threads 1] "
-                     "[--limit SECONDS] [--profile] [--clock wall|processor] [--serve] [--write "
-                     "FILE] [--dump FILE]\n";
+        std::cerr
+            << "usage: " << argv[0]
+            << " --scene NAME [--op union|intersection|difference|xor] [--runs 5] [--threads 1] "
+               "[--limit SECONDS] [--profile] [--clock wall|processor] [--serve] [--write "
+               "FILE] [--dump FILE]\n";
         return 2;
     }
     try {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 #include <trisect/bsp/many_meshes/common_part.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 #include <trisect/bsp/many_meshes/outlines/outline_store.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/outlines/settled_part.h>
