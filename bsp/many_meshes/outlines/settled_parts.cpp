@@ -19,7 +19,7 @@ namespace trisect::detail {
 namespace {
 
 // Of a position in lattice units: more than what lies between, rounded.
-constexpr double margin = 4;
+constexpr double clear_margin = 4;
 
 // So many facets, and such a part of all, are worth a step.
 constexpr std::size_t least_settled = 256;
@@ -150,8 +150,8 @@ ClearBox ClearBox::without(std::span<const Box> boxes, std::span<const std::uint
         const auto low = static_cast<double>(mine.lo[k]);
         const auto high = static_cast<double>(mine.hi[k]);
         const double length = high - low + 1;
-        const double below = static_cast<double>(begins.lo[k]) - margin;
-        const double above = static_cast<double>(ends.hi[k]) + margin;
+        const double below = static_cast<double>(begins.lo[k]) - clear_margin;
+        const double above = static_cast<double>(ends.hi[k]) + clear_margin;
         for (const bool is_below : {true, false}) {
             const double left = (is_below ? below - low : high - above) / length;
             if (left <= best) continue;
