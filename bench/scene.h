@@ -60,7 +60,7 @@ struct Scene {
 ///     b:5k b:82k b:328k b:1.3M      two icospheres, centres half a radius apart
 ///     c:82k c:1.3M                  an icosphere less one of 320 triangles and a tenth its size
 ///     c:82k:near c:1.3M:near        the same after an untimed cut beside it; :far on the other
-///     side
+///                                   side
 ///     c:82k:indexed c:1.3M:indexed  the same in a part that was indexed before, untimed
 ///     d:spheres d:cubes             the union of 1000 solids, turned and placed at random
 ///     d:tori                        the union of fifty tori (TRISECT_MODELS)
@@ -88,17 +88,19 @@ struct Scene {
 ///     h:dense16                     16 nearly equal solids of 800 triangles, turned at random; any
 ///                                   other number as well, in the next ones, too
 ///     h:dense16:halves              the union of the first eight with that of the others; any of
-///     h: h:onion16                     nested ones h:swarm16                     with centres at
-///     random in a third of their radius h:cylinders16                 cylinders of 200 sides about
-///     one centre, turned at random h:path200                     a plate less capsules that
-///     overlap along a path h:copies16                    a bumpy sphere of 800 triangles, moved
-///     along x each time h:floor16                     prisms of 200 sides on one floor about one
-///     axis h:stack16                     prisms of 200 sides, each on top of the one before
+///                                   h:
+///     h:onion16                     nested ones
+///     h:swarm16                     with centres at random in a third of their radius
+///     h:cylinders16                 cylinders of 200 sides about one centre, turned at random
+///     h:path200                     a plate less capsules that overlap along a path
+///     h:copies16                    a bumpy sphere of 800 triangles, moved along x each time
+///     h:floor16                     prisms of 200 sides on one floor about one axis
+///     h:stack16                     prisms of 200 sides, each on top of the one before
 ///     h:drills64 h:bores64          a plate less cylinders, flush with its upper side, or with
-///     both h:slot64                      a plate less flush cylinders that overlap along a line
+///                                   both
+///     h:slot64                      a plate less flush cylinders that overlap along a line
 ///     q:record q:record:1000        six statues of 100k triangles with the union of 100,000
-///     spheres
-///                                   of 234 triangles, or another number (TRISECT_MODELS)
+///                                   spheres of 234 triangles, or another number (TRISECT_MODELS)
 ///
 /// \throw UsageError for an unknown name, InputError when a model is absent.
 [[nodiscard]] Scene make_scene(const std::string& name);
