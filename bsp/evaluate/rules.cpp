@@ -206,20 +206,6 @@ bool is_parity_beyond_leaves(const Residual::Ref& formula, const SolidStates& so
            !are_few_of_prisms(solids, options);
 }
 
-// Faces of more than two planes through one line may cross there, without an edge in the line:
-// cells cut them.
-std::optional<SolidForm> exclusive_or_unless_touching(const Residual::Ref& formula,
-                                                      const SolidStates& solids,
-                                                      const EvaluateSettings& options,
-                                                      EvaluateStats& stats,
-                                                      std::shared_ptr<const LazyTree> tree) {
-    EvaluateStats made;
-    auto out = evaluate_exclusive_or_without_tree(formula, solids, options, made, std::move(tree));
-    if (!out || std::get<UndividedMeshes>(*out).may_have_straight_crossings) return std::nullopt;
-    stats = made;
-    return out;
-}
-
 // --- The table.
 
 template <auto Arranger>
@@ -256,7 +242,7 @@ constexpr std::array all_rules{
          "⊕ of three imported meshes or more, none with an index, not all across the axes, "
          "nor few of prisms, that do not touch; no limits",
          "uncrossed facets, outlines", &Stats::filtered_leaves,
-         FormulaRule{&is_parity_beyond_leaves, &exclusive_or_unless_touching}},
+         FormulaRule{&is_parity_beyond_leaves, &evaluate_exclusive_or_without_tree}},
     Rule{
         "many meshes",
         "∪, ∩ or − of three imported meshes or more, or of such, whose boxes mostly overlap, or "

@@ -320,7 +320,7 @@ std::optional<std::string> pairwise_difference(const trisect::Expression& expres
         if (!why.empty()) return "with sheets: " + why;
     }
     const FormulaRule many{&may_be_many_meshes, &evaluate_many_without_tree};
-    const FormulaRule parity{&is_exclusive_or_of_many, &evaluate_exclusive_or_without_tree};
+    const FormulaRule parity{&is_exclusive_or_of_many, &evaluate_touching_exclusive_or};
     const bool is_parity = is_exclusive_or_of_many(
         t.formula, states, EvaluateSettings{options, usual_splitting_offset});
     for (const std::uint32_t threads : {1U, 2U, 4U}) {

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/cells/lazy_tree.h>
+#include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/kernel/diagnostics.h>
@@ -109,8 +111,24 @@ TEST(ExclusiveOrOfMany, TakesWhatTwoOfThemTake) {
         by_twos = trisect::evaluate(by_twos ^ solids[static_cast<std::size_t>(i)]);
     }
     const trisect::Solid at_once = trisect::evaluate(all);
+    const auto tree = trisect::detail::state_of(at_once)->lazy_tree();
+    ASSERT_NE(tree, nullptr);
+    EXPECT_FALSE(tree->is_cut());
     EXPECT_NEAR(trisect::volume(at_once) / trisect::volume(by_twos), 1, 1e-12);
     EXPECT_TRUE(trisect::evaluate(at_once ^ by_twos).is_empty());
+}
+
+// Faces of three meshes through one line may cross there, without an edge in it.
+TEST(ExclusiveOrOfMany, LeavesWhatTouchesToCells) {
+    std::vector<trisect::Solid> solids;
+    for (int i = 0; i < 3; ++i) {
+        trisect::PolygonMesh mesh = trisect::make_icosphere(1000, 2);
+        for (auto& p : mesh.points) p = {std::round(p[0]) + 2000 * i, p[1], p[2]};
+        solids.push_back(trisect::Solid::from_mesh(mesh));
+    }
+    const trisect::Solid all = trisect::evaluate(solids[0] ^ solids[1] ^ solids[2]);
+    EXPECT_EQ(trisect::detail::state_of(all)->lazy_tree(), nullptr);
+    EXPECT_NEAR(trisect::volume(all) / trisect::volume(solids[1]), 3, 1e-12);
 }
 
 }  // namespace

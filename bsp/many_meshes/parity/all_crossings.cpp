@@ -27,8 +27,13 @@ struct AllCrossings::Finder {
 
 AllCrossings::AllCrossings(const ManyMeshes& meshes, const OutlineStore& store,
                            std::span<const Solid> solids, const EvaluateSettings& options,
-                           bool parallel)
-    : meshes_(meshes), store_(store), solids_(solids), options_(options), parallel_(parallel) {}
+                           Touching touching, bool parallel)
+    : meshes_(meshes),
+      store_(store),
+      solids_(solids),
+      options_(options),
+      touching_(touching),
+      parallel_(parallel) {}
 
 AllCrossings::~AllCrossings() = default;
 
@@ -73,6 +78,7 @@ bool AllCrossings::find_among(std::size_t first, std::size_t end, Pairs& out,
 
 bool AllCrossings::find_between(std::size_t first, std::size_t middle, std::size_t end, Pairs& out,
                                 EvaluateStats& stats) {
+    if (is_stopped_) return false;
     const std::array<OutlinedSolid, 2> sides{view(first, middle), view(middle, end)};
     if (!sides[0].box.meets(sides[1].box)) return true;
     Finder& finder = finders_.local([&] { return std::make_unique<Finder>(meshes_, options_); });
@@ -82,8 +88,12 @@ bool AllCrossings::find_between(std::size_t first, std::size_t middle, std::size
         for (std::uint32_t f = 0; f < boxes.size(); ++f)
             if (boxes[f].meets(sides[1 - i].box)) finder.near[i].push_back(f);
     }
-    if (!finder.pairs.find(sides[0], sides[1], {finder.near[0], finder.near[1]}, stats))
+    const bool is_known =
+        finder.pairs.find(sides[0], sides[1], {finder.near[0], finder.near[1]}, stats);
+    if (!is_known || (touching_ == Touching::Stop && !finder.special.facets().empty())) {
+        is_stopped_ = true;
         return false;
+    }
     out.reserve(finder.pairs.pairs().size());
     for (const CrossedFacets& c : finder.pairs.pairs()) out.push_back(c.crossing);
     return true;

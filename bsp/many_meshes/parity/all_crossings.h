@@ -3,6 +3,7 @@
 // AllCrossings: the crossings between all facets of many operands.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -21,15 +22,18 @@ public:
     using Solid = OutlineStore::Solid;
     using Pairs = PoolVector<FacetCrossing>;
 
+    /// What to do where operands touch.
+    enum class Touching { GoOn, Stop };
+
     /// `store`: all operands, in their order.
     AllCrossings(const ManyMeshes& meshes, const OutlineStore& store, std::span<const Solid> solids,
-                 const EvaluateSettings& options, bool parallel);
+                 const EvaluateSettings& options, Touching touching, bool parallel);
     ~AllCrossings();
     AllCrossings(const AllCrossings&) = delete;
     AllCrossings& operator=(const AllCrossings&) = delete;
 
     /// Each pair once, in an order that does not depend on the number of threads. False where a
-    /// pair is not decided.
+    /// pair is not decided, and where operands touch if that is to stop it.
     [[nodiscard]] bool find(Pairs& out, EvaluateStats& stats);
 
     /// What touches; in no order.
@@ -51,7 +55,9 @@ private:
     const OutlineStore& store_;
     std::span<const Solid> solids_;
     const EvaluateSettings& options_;
+    Touching touching_;
     bool parallel_;
+    std::atomic<bool> is_stopped_{false};
     PerThread<Finder> finders_;
 };
 

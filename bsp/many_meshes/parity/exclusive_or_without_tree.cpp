@@ -58,8 +58,11 @@ private:
 
 class ExclusiveOr {
 public:
-    ExclusiveOr(Crossings operands, const SolidStates& solids, const EvaluateSettings& options)
-        : operands_(std::move(operands)), options_(options) {
+    using Touching = AllCrossings::Touching;
+
+    ExclusiveOr(Crossings operands, const SolidStates& solids, const EvaluateSettings& options,
+                Touching touching)
+        : operands_(std::move(operands)), options_(options), touching_(touching) {
         meshes_.operands = &operands_;
         add_meshes(solids);
         shifts_.emplace(growths());
@@ -82,6 +85,7 @@ public:
         meetings.for_each_special([&](const SpecialPosition& s) { touches(s); });
         touches(special);
         list_special();
+        if (touching_ == Touching::Stop && !operands_.special.empty()) return std::nullopt;
         ParityOutlines outlines(all_, operands_.pairs, pierced, meetings, parities);
         if (!outlines.find(is_crossed_)) return std::nullopt;
         return form(parities, outlines.take(), stats);
@@ -139,7 +143,7 @@ private:
         }
     }
     [[nodiscard]] bool find_pairs(std::uint32_t threads, EvaluateStats& stats) {
-        AllCrossings crossings(meshes_, store_, solids_, options_, threads != 1);
+        AllCrossings crossings(meshes_, store_, solids_, options_, touching_, threads != 1);
         if (!crossings.find(operands_.pairs, stats)) return false;
         crossings.for_each_special([&](const SpecialPosition& s) { touches(s); });
         operands_.arrange();
@@ -201,6 +205,7 @@ private:
 
     Crossings operands_;
     const EvaluateSettings& options_;
+    Touching touching_;
     ManyMeshes meshes_;
     std::optional<OperandShifts> shifts_;
     std::vector<bool> is_below_far_out_;  // by slot
@@ -211,6 +216,22 @@ private:
     std::vector<std::uint8_t> is_crossed_;  // by facet
     std::vector<std::uint8_t> is_special_;  // by facet, if there are some
 };
+
+std::optional<SolidForm> exclusive_or_of_meshes(
+    const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
+    AllCrossings::Touching touching, EvaluateStats& stats, std::shared_ptr<const LazyTree> tree) {
+    ParityFormula parity(solids.size());
+    if (!parity.read(*formula)) return std::nullopt;
+    ExclusiveOr all(*crossing_operands(solids), solids, options, touching);
+    EvaluateStats made;
+    auto out = on_threads(options.threads, [&](std::uint32_t threads) {
+        return all.evaluate(parity.is_negated(), threads, made);
+    });
+    if (!out) return std::nullopt;
+    out->tree = std::move(tree);
+    stats = made;
+    return *std::move(out);
+}
 
 }  // namespace
 
@@ -233,17 +254,17 @@ std::optional<SolidForm> evaluate_exclusive_or_without_tree(const Residual::Ref&
                                                             const EvaluateSettings& options,
                                                             EvaluateStats& stats,
                                                             std::shared_ptr<const LazyTree> tree) {
-    ParityFormula parity(solids.size());
-    if (!parity.read(*formula)) return std::nullopt;
-    ExclusiveOr all(*crossing_operands(solids), solids, options);
-    EvaluateStats made;
-    auto out = on_threads(options.threads, [&](std::uint32_t threads) {
-        return all.evaluate(parity.is_negated(), threads, made);
-    });
-    if (!out) return std::nullopt;
-    out->tree = std::move(tree);
-    stats = made;
-    return *std::move(out);
+    return exclusive_or_of_meshes(formula, solids, options, AllCrossings::Touching::Stop, stats,
+                                  std::move(tree));
+}
+
+std::optional<SolidForm> evaluate_touching_exclusive_or(const Residual::Ref& formula,
+                                                        const SolidStates& solids,
+                                                        const EvaluateSettings& options,
+                                                        EvaluateStats& stats,
+                                                        std::shared_ptr<const LazyTree> tree) {
+    return exclusive_or_of_meshes(formula, solids, options, AllCrossings::Touching::GoOn, stats,
+                                  std::move(tree));
 }
 
 }  // namespace trisect::detail

@@ -17,9 +17,14 @@ namespace trisect::detail {
 [[nodiscard]] bool is_exclusive_or_of_many(const Residual::Ref& formula, const SolidStates& solids,
                                            const EvaluateSettings& options);
 
-/// The value of such a formula, with that tree. Nothing where sides are not known. What it returns
-/// does not depend on the number of threads. \pre is_exclusive_or_of_many()
+/// The value of such a formula, with that tree. Nothing where sides are not known, nor where meshes
+/// touch: faces of more than two planes through one line may cross there, without an edge in the
+/// line. What it returns does not depend on the number of threads. \pre is_exclusive_or_of_many()
 [[nodiscard]] std::optional<SolidForm> evaluate_exclusive_or_without_tree(
+    const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
+    EvaluateStats& stats, std::shared_ptr<const LazyTree> tree);
+/// The same where meshes touch, too: for tests.
+[[nodiscard]] std::optional<SolidForm> evaluate_touching_exclusive_or(
     const Residual::Ref& formula, const SolidStates& solids, const EvaluateSettings& options,
     EvaluateStats& stats, std::shared_ptr<const LazyTree> tree);
 
