@@ -16,34 +16,8 @@ using shapes::Matrix;
 using trisect::Point3d;
 using trisect::PolygonMesh;
 
-/// A sphere about the origin of 20 meridians and 20 circles between the poles, 800 triangles.
-/// `bumps`: the largest change of its radius, which is 1.
-PolygonMesh globe(double bumps) {
-    constexpr std::uint32_t around = 20;
-    constexpr std::uint32_t rings = 20;
-    PolygonMesh out;
-    out.points.push_back({0, 0, 1});
-    for (std::uint32_t i = 0; i < rings; ++i)
-        for (std::uint32_t j = 0; j < around; ++j) {
-            const double polar = std::numbers::pi * (i + 1) / (rings + 1);
-            const double angle = 2 * std::numbers::pi * j / around;
-            const double r = 1 + bumps * std::sin(3 * polar) * std::sin(4 * angle + polar);
-            out.points.push_back({r * std::sin(polar) * std::cos(angle),
-                                  r * std::sin(polar) * std::sin(angle), r * std::cos(polar)});
-        }
-    out.points.push_back({0, 0, -1});
-    const std::uint32_t last = around * rings + 1;
-    const auto at = [](std::uint32_t i, std::uint32_t j) { return 1 + around * i + j % around; };
-    for (std::uint32_t j = 0; j < around; ++j) {
-        out.add_triangle(0, at(0, j), at(0, j + 1));
-        out.add_triangle(last, at(rings - 1, j + 1), at(rings - 1, j));
-        for (std::uint32_t i = 0; i + 1 < rings; ++i) {
-            out.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-            out.add_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-        }
-    }
-    return out;
-}
+/// A sphere of 800 triangles. `bumps`: the largest change of its radius, which is 1.
+PolygonMesh globe(double bumps) { return shapes::globe(20, 20, bumps); }
 
 PolygonMesh placed(const PolygonMesh& mesh, Matrix turn, double radius, const Point3d& centre) {
     for (Point3d& row : turn)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -55,33 +54,6 @@ PolygonMesh statue(const PolygonMesh& model, double degrees, const Point3d& at) 
     return shapes::moved(shapes::moved(model, to_origin), m, at);
 }
 
-/// Of radius 1: 13 meridians and nine circles between the poles.
-PolygonMesh sphere() {
-    constexpr std::uint32_t around = 13;
-    constexpr std::uint32_t rings = 9;
-    PolygonMesh out;
-    out.points.push_back({0, 0, 1});
-    for (std::uint32_t i = 0; i < rings; ++i)
-        for (std::uint32_t j = 0; j < around; ++j) {
-            const double polar = std::numbers::pi * (i + 1) / (rings + 1);
-            const double angle = 2 * std::numbers::pi * j / around;
-            out.points.push_back({std::sin(polar) * std::cos(angle),
-                                  std::sin(polar) * std::sin(angle), std::cos(polar)});
-        }
-    out.points.push_back({0, 0, -1});
-    const std::uint32_t last = around * rings + 1;
-    const auto at = [](std::uint32_t i, std::uint32_t j) { return 1 + around * i + j % around; };
-    for (std::uint32_t j = 0; j < around; ++j) {
-        out.add_triangle(0, at(0, j), at(0, j + 1));
-        out.add_triangle(last, at(rings - 1, j + 1), at(rings - 1, j));
-        for (std::uint32_t i = 0; i + 1 < rings; ++i) {
-            out.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-            out.add_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-        }
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<PolygonMesh> statues_and_spheres(const std::vector<PolygonMesh>& models,
@@ -99,7 +71,7 @@ std::vector<PolygonMesh> statues_and_spheres(const std::vector<PolygonMesh>& mod
     for (std::size_t k = 0; k < 3; ++k) volume *= box.high[k] - box.low[k];
     const double radius =
         std::cbrt(sphere_depth * volume / static_cast<double>(n) * 0.75 / std::numbers::pi);
-    const PolygonMesh ball = sphere();
+    const PolygonMesh ball = shapes::globe(13, 9);
     shapes::Random random(1706);
     for (std::size_t i = 0; i < n; ++i) {
         Matrix m = random.rotation();

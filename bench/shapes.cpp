@@ -125,6 +125,31 @@ PolygonMesh icosphere(int level) {
     return mesh;
 }
 
+PolygonMesh globe(std::uint32_t around, std::uint32_t rings, double bumps) {
+    PolygonMesh out;
+    out.points.push_back({0, 0, 1});
+    for (std::uint32_t i = 0; i < rings; ++i)
+        for (std::uint32_t j = 0; j < around; ++j) {
+            const double polar = std::numbers::pi * (i + 1) / (rings + 1);
+            const double angle = 2 * std::numbers::pi * j / around;
+            const double r = 1 + bumps * std::sin(3 * polar) * std::sin(4 * angle + polar);
+            out.points.push_back({r * std::sin(polar) * std::cos(angle),
+                                  r * std::sin(polar) * std::sin(angle), r * std::cos(polar)});
+        }
+    out.points.push_back({0, 0, -1});
+    const std::uint32_t last = around * rings + 1;
+    const auto at = [&](std::uint32_t i, std::uint32_t j) { return 1 + around * i + j % around; };
+    for (std::uint32_t j = 0; j < around; ++j) {
+        out.add_triangle(0, at(0, j), at(0, j + 1));
+        out.add_triangle(last, at(rings - 1, j + 1), at(rings - 1, j));
+        for (std::uint32_t i = 0; i + 1 < rings; ++i) {
+            out.add_triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+            out.add_triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+        }
+    }
+    return out;
+}
+
 PolygonMesh moved(PolygonMesh mesh, const Point3d& by) {
     for (Point3d& p : mesh.points)
         for (std::size_t k = 0; k < 3; ++k) p[k] += by[k];

@@ -21,6 +21,12 @@ namespace shapes {
 /// times, 20 · 4^level triangles.
 [[nodiscard]] trisect::PolygonMesh icosphere(int level);
 
+/// A sphere about the origin with poles on the z axis: `around` meridians and `rings` circles
+/// between the poles, 2 · around · rings triangles. `bumps`: the largest change of its radius,
+/// which is 1.
+[[nodiscard]] trisect::PolygonMesh globe(std::uint32_t around, std::uint32_t rings,
+                                         double bumps = 0);
+
 [[nodiscard]] trisect::PolygonMesh moved(trisect::PolygonMesh mesh, const trisect::Point3d& by);
 
 /// A vector of the given length along (1, 2, 3).
