@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,8 +23,8 @@
 #include <trisect/bsp/many_meshes/common_segments.h>
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 #include <trisect/bsp/many_meshes/point_side.h>
+#include <trisect/bsp/many_meshes/stops_in_order.h>
 #include <trisect/bsp/many_meshes/vertex_sides.h>
-#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/flat_map.h>
 
 namespace trisect::detail {
@@ -241,27 +240,9 @@ std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
 
 bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
                                    const OutlinedSolid& solid, std::span<Stop> stops) const {
-    if (stops.size() < 2) return true;
-    const Approximation& a = solid.vertices[edge.from].at;
-    const Approximation& b = solid.vertices[edge.to].at;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (std::fabs(b.c[k] - a.c[k]) > std::fabs(b.c[axis] - a.c[axis])) axis = k;
-    const double length = b.c[axis] - a.c[axis];
-    const bool has_way = std::fabs(length) > bound_slack * (a.error + b.error);
-    const double way = length > 0 ? 1 : -1;
-    for (Stop& s : stops) s.along = way * made_[s.vertex].at.c[axis];
-    bool known = true;
-    // Stable sorting stays within its range, whatever the answers.
-    std::ranges::stable_sort(stops, [&](const Stop& s, const Stop& t) {
-        const double error = bound_slack * (made_[s.vertex].at.error + made_[t.vertex].at.error);
-        if (has_way && std::fabs(t.along - s.along) > error) return s.along < t.along;
-        if (s.vertex == t.vertex) return false;
-        const int order = order_of_stops(edge, facet, s, t);
-        known = known && order != 0;
-        return order < 0;
-    });
-    return known;
+    return sort_along(
+        stops, solid.vertices[edge.from].at, solid.vertices[edge.to].at, made_,
+        [&](const Stop& s, const Stop& t) { return order_of_stops(edge, facet, s, t); });
 }
 
 // Exactly: -1 where the first one comes before the other one. An edge in a segment goes along its

@@ -6,9 +6,8 @@
 #include <trisect/bsp/many_meshes/parity/pierced_edges.h>
 
 #include <algorithm>
-#include <cmath>
 
-#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/bsp/many_meshes/stops_in_order.h>
 
 namespace trisect::detail {
 
@@ -72,30 +71,15 @@ std::uint32_t PiercedEdges::vertex_at(const FacetCrossing& crossing, std::size_t
 
 bool PiercedEdges::sort(std::span<Stop> stops, std::uint32_t edge,
                         std::span<const OutlineVertex> vertices) const {
-    if (stops.size() < 2) return true;
     const OutlinedSolid::Edge& e = all_.edges[edge];
     const bool is_along = e.from < e.to;
-    const Approximation& a = vertices[is_along ? e.from : e.to].at;
-    const Approximation& b = vertices[is_along ? e.to : e.from].at;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (std::fabs(b.c[k] - a.c[k]) > std::fabs(b.c[axis] - a.c[axis])) axis = k;
-    const double way = b.c[axis] > a.c[axis] ? 1 : -1;
-    for (Stop& s : stops) s.along = way * vertices[s.vertex].at.c[axis];
-    bool known = true;
-    // Stable sorting stays within its range, whatever the answers.
-    std::ranges::stable_sort(stops, [&](const Stop& s, const Stop& t) {
-        const double error =
-            bound_slack * (vertices[s.vertex].at.error + vertices[t.vertex].at.error);
-        if (std::fabs(t.along - s.along) > error) return s.along < t.along;
-        if (s.vertex == t.vertex) return false;
-        const int order =
-            (is_along ? 1 : -1) *
-            exact_.order_on_edge(edge / 3, static_cast<std::int8_t>(edge % 3), s.cutter, t.cutter);
-        known = known && order != 0;
-        return order < 0;
-    });
-    return known;
+    const auto [first, last] = std::minmax(e.from, e.to);
+    return sort_along(
+        stops, vertices[first].at, vertices[last].at, vertices, [&](const Stop& s, const Stop& t) {
+            return (is_along ? 1 : -1) * exact_.order_on_edge(edge / 3,
+                                                              static_cast<std::int8_t>(edge % 3),
+                                                              s.cutter, t.cutter);
+        });
 }
 
 }  // namespace trisect::detail

@@ -9,11 +9,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <numeric>
 
 #include <trisect/bsp/cells/trace/interpolation.h>
-#include <trisect/kernel/number/error_bounds.h>
+#include <trisect/bsp/many_meshes/stops_in_order.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -208,37 +207,21 @@ bool SegmentMeetings::sort(std::span<const OutlineVertex> vertices, std::uint32_
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             const ShiftedPoints exact(meshes_, special());
             for (std::size_t p = begin; p < end; ++p)
-                if (!sort_along(p, vertices, exact)) is_known = false;
+                if (!sort_stops(p, vertices, exact)) is_known = false;
         });
     return is_known;
 }
 
 // A crossing has the direction of the product of its facets' normals.
-bool SegmentMeetings::sort_along(std::size_t pair, std::span<const OutlineVertex> vertices,
+bool SegmentMeetings::sort_stops(std::size_t pair, std::span<const OutlineVertex> vertices,
                                  const ShiftedPoints& exact) {
     const std::span<Stop> stops =
         std::span(stops_).subspan(first_[pair], first_[pair + 1] - first_[pair]);
-    if (stops.size() < 2) return true;
-    const Approximation& a = vertices[ends_[pair][0]].at;
-    const Approximation& b = vertices[ends_[pair][1]].at;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (std::fabs(b.c[k] - a.c[k]) > std::fabs(b.c[axis] - a.c[axis])) axis = k;
-    const double length = b.c[axis] - a.c[axis];
-    const bool has_way = std::fabs(length) > bound_slack * (a.error + b.error);
-    const double way = length > 0 ? 1 : -1;
-    for (Stop& s : stops) s.along = way * vertices[s.vertex].at.c[axis];
-    bool known = true;
-    std::ranges::stable_sort(stops, [&](const Stop& s, const Stop& t) {
-        const double error =
-            bound_slack * (vertices[s.vertex].at.error + vertices[t.vertex].at.error);
-        if (has_way && std::fabs(t.along - s.along) > error) return s.along < t.along;
-        if (s.vertex == t.vertex) return false;
-        const int order = exact.order_on_line(pairs_[pair].facets, s.cutter, t.cutter);
-        known = known && order != 0;
-        return order < 0;
-    });
-    return known;
+    const auto& ends = ends_[pair];
+    return sort_along(stops, vertices[ends[0]].at, vertices[ends[1]].at, vertices,
+                      [&](const Stop& s, const Stop& t) {
+                          return exact.order_on_line(pairs_[pair].facets, s.cutter, t.cutter);
+                      });
 }
 
 }  // namespace trisect::detail

@@ -60,7 +60,7 @@ private:
     void make_planes(std::uint32_t threads);
     [[nodiscard]] bool find_points(PoolVector<OutlineVertex>& vertices, std::uint32_t threads);
     [[nodiscard]] bool sort(std::span<const OutlineVertex> vertices, std::uint32_t threads);
-    [[nodiscard]] bool sort_along(std::size_t pair, std::span<const OutlineVertex> vertices,
+    [[nodiscard]] bool sort_stops(std::size_t pair, std::span<const OutlineVertex> vertices,
                                   const ShiftedPoints& exact);
     [[nodiscard]] SpecialPosition& special() {
         return special_.local(
