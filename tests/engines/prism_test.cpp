@@ -162,11 +162,18 @@ TEST(Prisms, PairsAlongEveryAxis) {
     EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5);
 }
 
-TEST(Prisms, OutlinesOfPairsAlongEveryAxis) {
+// What becomes of operands before they are turned, by the seed.
+using Change = std::vector<Operand> (*)(const std::vector<Operand>&, std::uint64_t);
+
+std::vector<Operand> unchanged(const std::vector<Operand>& operands, std::uint64_t) {
+    return operands;
+}
+
+void expect_same_outlines_of_pairs(std::uint64_t first_seed, std::uint64_t count, Change change) {
     Leaves leaves;
-    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-        reference::Random random(seed + 450000);
-        std::vector<Operand> operands{random_prism(random), random_prism(random)};
+    for (std::uint64_t seed = 1; seed <= count; ++seed) {
+        reference::Random random(seed + first_seed);
+        std::vector<Operand> operands = change({random_prism(random), random_prism(random)}, seed);
         for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
         for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor}) {
             SCOPED_TRACE("seed " + std::to_string(seed));
@@ -174,6 +181,10 @@ TEST(Prisms, OutlinesOfPairsAlongEveryAxis) {
         }
     }
     EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5);
+}
+
+TEST(Prisms, OutlinesOfPairsAlongEveryAxis) {
+    expect_same_outlines_of_pairs(450000, 300, &unchanged);
 }
 
 // What is asked of a result that has not been cut, and what is made of it.
@@ -233,12 +244,12 @@ std::vector<Operand> plate_with_pockets(reference::Random& random) {
     return operands;
 }
 
-TEST(Prisms, OutlinesOfPlatesWithPockets) {
+void expect_same_outlines_of_plates(std::uint64_t first_seed, std::uint64_t count, Change change) {
     Leaves leaves;
-    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    for (std::uint64_t seed = 1; seed <= count; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        reference::Random random(seed + 460000);
-        std::vector<Operand> operands = plate_with_pockets(random);
+        reference::Random random(seed + first_seed);
+        std::vector<Operand> operands = change(plate_with_pockets(random), seed);
         if (seed % 3 == 0) std::swap(operands[0], operands.back());
         auto expression = reference::random_expression(random, operands.size(), operands.size());
         if (operands.size() == 2)
@@ -247,6 +258,10 @@ TEST(Prisms, OutlinesOfPlatesWithPockets) {
         expect_same_outlines(operands, expression, leaves);
     }
     EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7);
+}
+
+TEST(Prisms, OutlinesOfPlatesWithPockets) {
+    expect_same_outlines_of_plates(460000, 200, &unchanged);
 }
 
 // --- Side faces of any facets.
@@ -322,33 +337,11 @@ std::vector<Operand> with_divided_edges(const std::vector<Operand>& operands, st
 }
 
 TEST(PrismsOfAnyFacets, OutlinesOfPairsAlongEveryAxis) {
-    Leaves leaves;
-    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-        reference::Random random(seed + 510000);
-        std::vector<Operand> operands =
-            with_divided_edges({random_prism(random), random_prism(random)}, seed);
-        for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
-        for (const Kind kind : {Kind::Union, Kind::Intersection, Kind::Difference, Kind::Xor}) {
-            SCOPED_TRACE("seed " + std::to_string(seed));
-            expect_same_outlines(operands, reference::pair_expression(kind), leaves);
-        }
-    }
-    EXPECT_GT(leaves.prisms * 10, leaves.mixed * 5);
+    expect_same_outlines_of_pairs(510000, 40, &with_divided_edges);
 }
 
 TEST(PrismsOfAnyFacets, OutlinesOfPlatesWithPockets) {
-    Leaves leaves;
-    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        reference::Random random(seed + 520000);
-        std::vector<Operand> operands = with_divided_edges(plate_with_pockets(random), seed);
-        auto expression = reference::random_expression(random, operands.size(), operands.size());
-        if (operands.size() == 2)
-            expression = reference::pair_expression(seed % 2 == 0 ? Kind::Difference : Kind::Union);
-        for (auto& o : operands) o = reference::axes_rotated(o, seed % 3);
-        expect_same_outlines(operands, expression, leaves);
-    }
-    EXPECT_GT(leaves.prisms * 10, leaves.mixed * 7);
+    expect_same_outlines_of_plates(520000, 30, &with_divided_edges);
 }
 
 // Walls that are no rectangles, and steps, go other ways.

@@ -4,19 +4,19 @@
 
 #include <trisect/bsp/assembly/parts/vertex_columns.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <random>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "vertices_in_box.h"
+
 namespace {
 
 using trisect::detail::VertexColumns;
-using Point = std::array<double, 3>;
+using vertices_in_box::Point;
 
 class VertexColumnsAlong : public testing::TestWithParam<std::size_t> {};
 
@@ -27,8 +27,7 @@ TEST_P(VertexColumnsAlong, FindsAllVerticesOfABox) {
     const auto at = [&] { return static_cast<double>(random() % 13) - 2; };
     int refused = 0;
     for (int round = 0; round < 200; ++round) {
-        std::vector<VertexColumns::Vertex> vertices;
-        for (int i = 0; i < 400; ++i) vertices.push_back({{at(), at(), at()}, i});
+        const auto vertices = vertices_in_box::random_vertices(at);
         VertexColumns columns;
         EXPECT_TRUE(columns.is_empty());
         columns.build(vertices, axis, 1 + static_cast<double>(round % 3));
@@ -37,25 +36,7 @@ TEST_P(VertexColumnsAlong, FindsAllVerticesOfABox) {
         for (std::size_t k = 0; k < 3; ++k) hi[k] += static_cast<double>(random() % 5) / 2;
         hi[axis] = at();
         if (lo[axis] > hi[axis]) std::swap(lo[axis], hi[axis]);
-        std::vector<int> found(vertices.size());
-        const bool is_narrow =
-            columns.for_each_near(lo, hi, [&](std::span<const VertexColumns::Vertex> part) {
-                for (const auto& v : part) ++found[static_cast<std::size_t>(v.point)];
-            });
-        if (!is_narrow) {
-            ++refused;
-            EXPECT_EQ(std::ranges::count(found, 0), 400);
-            continue;
-        }
-        for (const auto& v : vertices) {
-            bool is_in = true;
-            for (std::size_t k = 0; k < 3; ++k) is_in = is_in && lo[k] <= v.c[k] && v.c[k] <= hi[k];
-            const int times = found[static_cast<std::size_t>(v.point)];
-            EXPECT_LE(times, 1);
-            if (is_in) {
-                EXPECT_EQ(times, 1);
-            }
-        }
+        if (!vertices_in_box::expect_all_found(columns, vertices, lo, hi)) ++refused;
     }
     EXPECT_GT(refused, 0);
     EXPECT_LT(refused, 200);

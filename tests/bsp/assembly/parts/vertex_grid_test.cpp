@@ -4,19 +4,19 @@
 
 #include <trisect/bsp/assembly/parts/vertex_grid.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <random>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "vertices_in_box.h"
+
 namespace {
 
 using trisect::detail::VertexGrid;
-using Point = std::array<double, 3>;
+using vertices_in_box::Point;
 
 // The size of a lattice: solids may be far smaller or larger than its unit.
 class VertexGridOfSize : public testing::TestWithParam<double> {};
@@ -27,33 +27,14 @@ TEST_P(VertexGridOfSize, FindsAllVerticesOfABox) {
     const auto at = [&] { return GetParam() * (static_cast<double>(random() % 13) - 2); };
     int refused = 0;
     for (int round = 0; round < 200; ++round) {
-        std::vector<VertexGrid::Vertex> vertices;
-        for (int i = 0; i < 400; ++i) vertices.push_back({{at(), at(), at()}, i});
+        const auto vertices = vertices_in_box::random_vertices(at);
         VertexGrid grid;
         grid.build(vertices, GetParam() * static_cast<double>(round % 5) / 2);
         Point lo{at(), at(), at()};
         Point hi{at(), at(), at()};
         for (std::size_t k = 0; k < 3; ++k)
             if (lo[k] > hi[k]) std::swap(lo[k], hi[k]);
-        std::vector<int> found(vertices.size());
-        const bool is_short =
-            grid.for_each_near(lo, hi, [&](std::span<const VertexGrid::Vertex> part) {
-                for (const auto& v : part) ++found[static_cast<std::size_t>(v.point)];
-            });
-        if (!is_short) {
-            ++refused;
-            EXPECT_EQ(std::ranges::count(found, 0), 400);
-            continue;
-        }
-        for (const auto& v : vertices) {
-            bool is_in = true;
-            for (std::size_t k = 0; k < 3; ++k) is_in = is_in && lo[k] <= v.c[k] && v.c[k] <= hi[k];
-            const int times = found[static_cast<std::size_t>(v.point)];
-            EXPECT_LE(times, 1);
-            if (is_in) {
-                EXPECT_EQ(times, 1);
-            }
-        }
+        if (!vertices_in_box::expect_all_found(grid, vertices, lo, hi)) ++refused;
     }
     EXPECT_GT(refused, 0);
     EXPECT_LT(refused, 200);

@@ -28,6 +28,7 @@ using trisect::AffineMap;
 using trisect::PlaneProjection;
 using trisect::Solid;
 using trisect::detail::BoundaryEdge;
+using trisect::detail::BoundaryEdges;
 using trisect::detail::BoundaryFacet;
 using trisect::detail::BoundaryParts;
 using trisect::detail::Workbench;
