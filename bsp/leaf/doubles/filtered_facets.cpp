@@ -192,6 +192,115 @@ Box FilteredFacets::positions(const Vector3& lo, const Vector3& hi) const {
     return box;
 }
 
+// Adds the polygons of a leaf, operand by operand, and finds how far they reach.
+class FilteredFacets::Lister {
+public:
+    explicit Lister(FilteredFacets& all)
+        : all_(all),
+          low_(all.reference_.c),
+          high_(all.reference_.c),
+          inner_lo_(all.inner_lo_),
+          inner_hi_(all.inner_hi_),
+          outer_lo_(all.outer_lo_),
+          outer_hi_(all.outer_hi_) {
+        if (all.whole_) return;
+        for (std::size_t k = 0; k < 3; ++k) {
+            low_[k] = std::min(low_[k], 0.0);  // the origin, which else is a corner
+            high_[k] = std::max(high_[k], 0.0);
+        }
+    }
+
+    void list(std::size_t number) {
+        const LeafOperand& operand = all_.problem_.operands[number];
+        source_ = nullptr;
+        all_.firsts_[number] = all_.size();
+        for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
+            const PolygonRef& ref = operand.polygons[i];
+            look_ahead(operand.polygons.subspan(i));
+            if (ref.fragment != nullptr || !ref.source->is_half_space()) {
+                add(ref, operand, number);
+                continue;
+            }
+            for (const Piece& p : all_.pieces_)
+                if (p.operand == number && p.ref.source == ref.source) add(p.ref, operand, number);
+        }
+    }
+    // Whether doubles hold all of it.
+    [[nodiscard]] bool set_extent() {
+        for (std::size_t k = 0; k < 3; ++k) {
+            small_ = small_ && low_[k] > -exact_limit && high_[k] < exact_limit;
+            const double extent = high_[k] - low_[k];
+            all_.extent_[k] = all_.whole_ ? extent + 1 : extent * slightly_more;
+        }
+        return small_;
+    }
+
+private:
+    void add(const PolygonRef& ref, const LeafOperand& operand, std::size_t number) {
+        if (ref.source != source_) {
+            source_ = ref.source;
+            surface_ = all_.surfaces_
+                           .insert({reinterpret_cast<std::uintptr_t>(source_),
+                                    static_cast<std::uint32_t>(number)},
+                                   static_cast<LeafIndex>(all_.surfaces_.size()))
+                           .first;
+        }
+        all_.add(ref, operand, static_cast<LeafIndex>(number), surface_);
+        FilteredFacet& f = all_.facets_.back();
+        const Vector3 lo = f.lo;
+        const Vector3 hi = f.hi;
+        clip(f, all_.reaches_[number]);
+        if (!f.is_of_half_space())
+            for (std::size_t k = 0; k < 3; ++k) {
+                low_[k] = std::min(low_[k], lo[k]);
+                high_[k] = std::max(high_[k], hi[k]);
+            }
+        if (!f.is_whole()) look_at_fragment(f, lo, hi);
+    }
+    void clip(FilteredFacet& f, Reach& reach) const {
+        bool contained = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            contained &= f.lo[k] >= inner_lo_[k];
+            contained &= f.hi[k] <= inner_hi_[k];
+            f.lo[k] = std::max(f.lo[k], outer_lo_[k]);
+            f.hi[k] = std::min(f.hi[k], outer_hi_[k]);
+            reach.lo[k] = std::min(reach.lo[k], f.lo[k]);
+            reach.hi[k] = std::max(reach.hi[k], f.hi[k]);
+        }
+        f.contained = contained;
+    }
+    // With its box before that was clipped.
+    void look_at_fragment(FilteredFacet& f, const Vector3& lo, const Vector3& hi) {
+        if (f.is_beyond) {
+            f.contained = false;
+            return;
+        }
+        if (!all_.whole_) f.contained = all_.problem_.cell.contains(f.ref.fragment->box());
+        if (!f.contained) f.contained = all_.is_contained_but_for_splitters(f.splitters, lo, hi);
+        if (f.is_of_half_space()) return;
+        // Planes are evaluated at points relative to their first corner. What doubles hold of a
+        // fragment's facet need not be near the fragment.
+        for (std::size_t k = 0; k < 3; ++k) {
+            low_[k] = std::min(low_[k], f.corners[0][k]);
+            high_[k] = std::max(high_[k], f.corners[0][k]);
+            for (std::size_t c = 1; c < 3; ++c)
+                small_ = small_ && std::fabs(f.corners[c][k]) < exact_limit;
+        }
+    }
+
+    FilteredFacets& all_;
+    const Source* source_ = nullptr;  // of the facet before
+    LeafIndex surface_ = -1;
+    // Over all points compared with a plane.
+    Vector3 low_;
+    Vector3 high_;
+    bool small_ = true;
+    Vector3 inner_lo_;
+    Vector3 inner_hi_;
+    Vector3 outer_lo_;
+    Vector3 outer_hi_;
+};
+
 bool FilteredFacets::list(const LeafProblem& leaf) {
     problem_ = leaf;
     facets_.clear();
@@ -210,88 +319,10 @@ bool FilteredFacets::list(const LeafProblem& leaf) {
     set_origin(whole_ ? any->source->corner(any->facet, 0).doubles() : origin_of_fractions());
     pieces_.clear();
     if (polygons->unbounded) make_pieces();
-    // Over all points compared with a plane.
-    Vector3 low = reference_.c;
-    Vector3 high = reference_.c;
-    if (!whole_)
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], 0.0);  // the origin, which else is a corner
-            high[k] = std::max(high[k], 0.0);
-        }
-    bool small = true;
-    const Vector3 inner_lo = inner_lo_;
-    const Vector3 inner_hi = inner_hi_;
-    const Vector3 outer_lo = outer_lo_;
-    const Vector3 outer_hi = outer_hi_;
-    for (std::size_t o = 0; o < leaf.operands.size(); ++o) {
-        const LeafOperand& operand = leaf.operands[o];
-        const auto number = static_cast<LeafIndex>(o);
-        const Source* source = nullptr;
-        LeafIndex surface = -1;
-        Reach& reach = reaches_[o];
-        const auto add_item = [&](const PolygonRef& ref) {
-            if (ref.source != source) {
-                source = ref.source;
-                surface = surfaces_
-                              .insert({reinterpret_cast<std::uintptr_t>(source),
-                                       static_cast<std::uint32_t>(o)},
-                                      static_cast<LeafIndex>(surfaces_.size()))
-                              .first;
-            }
-            add(ref, operand, number, surface);
-            FilteredFacet& f = facets_.back();
-            const Vector3 lo = f.lo;
-            const Vector3 hi = f.hi;
-            bool contained = true;
-            for (std::size_t k = 0; k < 3; ++k) {
-                contained &= lo[k] >= inner_lo[k];
-                contained &= hi[k] <= inner_hi[k];
-                f.lo[k] = std::max(lo[k], outer_lo[k]);
-                f.hi[k] = std::min(hi[k], outer_hi[k]);
-                reach.lo[k] = std::min(reach.lo[k], f.lo[k]);
-                reach.hi[k] = std::max(reach.hi[k], f.hi[k]);
-            }
-            f.contained = contained;
-            if (!f.is_of_half_space())
-                for (std::size_t k = 0; k < 3; ++k) {
-                    low[k] = std::min(low[k], lo[k]);
-                    high[k] = std::max(high[k], hi[k]);
-                }
-            if (f.is_whole()) return;
-            if (f.is_beyond) {
-                f.contained = false;
-                return;
-            }
-            if (!whole_) f.contained = leaf.cell.contains(f.ref.fragment->box());
-            if (!f.contained) f.contained = is_contained_but_for_splitters(f.splitters, lo, hi);
-            if (f.is_of_half_space()) return;
-            // Planes are evaluated at points relative to their first corner. What doubles hold of a
-            // fragment's facet need not be near the fragment.
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], f.corners[0][k]);
-                high[k] = std::max(high[k], f.corners[0][k]);
-                for (std::size_t c = 1; c < 3; ++c)
-                    small = small && std::fabs(f.corners[c][k]) < exact_limit;
-            }
-        };
-        firsts_[o] = size();
-        for (std::size_t i = 0; i < operand.polygons.size(); ++i) {
-            const PolygonRef& ref = operand.polygons[i];
-            look_ahead(operand.polygons.subspan(i));
-            if (ref.fragment != nullptr || !ref.source->is_half_space()) {
-                add_item(ref);
-                continue;
-            }
-            for (const Piece& p : pieces_)
-                if (p.operand == o && p.ref.source == ref.source) add_item(p.ref);
-        }
-    }
+    Lister lister(*this);
+    for (std::size_t o = 0; o < leaf.operands.size(); ++o) lister.list(o);
     firsts_.back() = size();
-    for (std::size_t k = 0; k < 3; ++k) {
-        small = small && low[k] > -exact_limit && high[k] < exact_limit;
-        extent_[k] = whole_ ? high[k] - low[k] + 1 : (high[k] - low[k]) * slightly_more;
-    }
-    return small;
+    return lister.set_extent();
 }
 
 void FilteredFacets::add(const PolygonRef& ref, const LeafOperand& operand, LeafIndex number,

@@ -205,6 +205,7 @@ public:
     [[nodiscard]] Box positions(const Vector3& lo, const Vector3& hi) const;
 
 private:
+    class Lister;
     void set_origin(const Vector3& origin);
     void set_bounds();
     void set_bounds_with_fractions();
