@@ -6,7 +6,7 @@
 // The others are turned into convex parts with exact vertices, one for every cell.
 //
 // Vertices are identified by name as they are made (Workbench::meet), then by value: points whose
-// certified doubles are close (near_points.h) are compared exactly. A second stage is
+// certified doubles are close are compared exactly (equal_points.cpp). A second stage is
 // indispensable: where several planes run through one point its names differ.
 //
 // T-vertices are found leaf by leaf. Every polygon that touches a closed cell is listed there, so
@@ -19,16 +19,16 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <variant>
 
 #include <trisect/bsp/assembly/axis/axis_faces.h>
+#include <trisect/bsp/assembly/equal_points.h>
+#include <trisect/bsp/assembly/list_marks.h>
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
 #include <trisect/bsp/assembly/parts/fragment_group.h>
-#include <trisect/bsp/assembly/parts/named_edges.h>
 #include <trisect/bsp/assembly/parts/outline_edges.h>
 #include <trisect/bsp/assembly/parts/sheets.h>
 #include <trisect/bsp/assembly/traced/outlined_edges.h>
@@ -36,7 +36,6 @@
 #include <trisect/bsp/cells/deferred_leaf.h>
 #include <trisect/bsp/cells/lazy_tree.h>
 #include <trisect/bsp/cells/named_outlines.h>
-#include <trisect/bsp/cells/near_points.h>
 #include <trisect/bsp/cells/polygon_in_cell.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/stop_scope.h>
@@ -57,15 +56,6 @@ struct AssembledLeaf {
     std::size_t end_edge = 0;
     std::size_t first_inside = 0;  // of inside_
     std::size_t end_inside = 0;
-};
-
-// A part of a leaf's list of nothing but whole facets of one source.
-struct ListPart {
-    std::span<const std::uint32_t> facets;
-    bool contained = false;  ///< in the cell of the leaf, so that no other leaf lists them
-    const AssembledLeaf* leaf = nullptr;
-    std::size_t table = 0;
-    bool flipped = false;
 };
 
 class Gatherer {
@@ -100,8 +90,6 @@ private:
     void mark_special(const Crossings& crossings);
     [[nodiscard]] bool needs_parts(const DeferredLeaf& leaf) const;
     [[nodiscard]] bool needs_parts(const AssembledLeaf& leaf, const OccupancyGrid& occupancy) const;
-    void note_list(const AssembledLeaf& leaf, const PolygonList& polygons, std::size_t table);
-    void mark_lists();
     void mark_uncrossed(std::span<const UncrossedFacets> lists);
     void mark_outlines(const NamedOutlines& outlines);
     void mark_outlined(const UndividedMeshes& meshes);
@@ -124,9 +112,6 @@ private:
     void add_corners_near(std::span<const PointId> points, const PolygonRef& ref);
     void choose_axis_faces();
     void make_axis_faces();
-    void merge_equal_points();
-    void add_planes_through(PointId value);
-    [[nodiscard]] bool is_same(PointId value, PointId name);
     [[nodiscard]] bool conform_edges(std::size_t traced, std::size_t of_leaves);
     [[nodiscard]] bool conform_traced(std::span<BoundaryEdge> edges);
     [[nodiscard]] std::size_t table(const Source* source);
@@ -144,14 +129,13 @@ private:
                                       // common; these may pass through
     bool defers_ = false;             // crossings of all leaves in general position are known
     PoolVector<AssembledLeaf> leaves_;
-    PoolVector<ListPart> lists_;
+    ListMarks lists_;
     std::size_t last_table_ = 0;
     // Of traced facets, then of the parts, leaf by leaf, then of axis-perpendicular planes.
     BoundaryEdges edges_;
     std::unique_ptr<AxisFaces> axis_faces_;
     PoolVector<PointId> inside_;  // vertices of the latter that may lie inside edges of parts
     PoolVector<PointId> same_;
-    PoolVector<std::pair<PointId, PlaneId>> through_;  // a value, the class of a plane through it
     EdgeSplitter splitter_;
     // Of the group of fragments in the making.
     FragmentGroup fragments_;
@@ -229,7 +213,7 @@ bool Gatherer::finish() {
     const std::size_t of_leaves = edges_.size();
     make_axis_faces();
     if (!may_have_sheets_) out_.bench.end_points();
-    merge_equal_points();
+    same_ = axis_faces_->takes_all() ? points_as_named(out_) : representatives(out_, first_serial_);
     check_stop(edges_.size());
     if (!conform_edges(traced, of_leaves)) return false;
     if (may_have_sheets_) out_.bench.end_points();
@@ -249,7 +233,7 @@ void Gatherer::mark_leaves() {
         check_stop(1 + leaf.node->size());
         mark_facets(leaf);
     }
-    mark_lists();
+    lists_.mark(out_.sources, threads_);
 }
 
 std::size_t Gatherer::table(const Source* source) {
@@ -351,7 +335,8 @@ void Gatherer::mark_facets(const AssembledLeaf& leaf) {
                                                          : leaf.node->polygons();
     if (const Source* source = polygons.whole_source();
         source != nullptr && !source->is_half_space()) {
-        note_list(leaf, polygons, table(source));
+        const std::size_t number = table(source);
+        lists_.note(polygons, leaf.cell, leaf.complemented, number, out_.sources[number]);
         return;
     }
     constexpr std::size_t ahead = 8;
@@ -378,75 +363,6 @@ void Gatherer::mark_facets(const AssembledLeaf& leaf) {
             marks.set_present(r.facet, flipped);
         }
     }
-}
-
-// A list of nothing but whole facets of one source is marked later, by several threads: what other
-// leaves say of a facet makes no difference to it.
-void Gatherer::note_list(const AssembledLeaf& leaf, const PolygonList& polygons,
-                         std::size_t table) {
-    FacetMarks& marks = out_.sources[table];
-    const bool flipped = polygons.flipped() != leaf.complemented;
-    if (polygons.has_all_facets()) {
-        for (std::uint32_t f = 0; f < polygons.size(); ++f) marks.set_present(f, flipped);
-        return;
-    }
-    const auto add = [&](std::span<const std::uint32_t> facets, bool contained) {
-        constexpr std::size_t most = 16384;
-        for (std::size_t i = 0; i < facets.size(); i += most)
-            lists_.push_back({facets.subspan(i, std::min(most, facets.size() - i)), contained,
-                              &leaf, table, flipped});
-    };
-    const std::span<const std::uint32_t> facets = polygons.facets();
-    add(facets.first(polygons.contained()), true);
-    add(facets.subspan(polygons.contained()), false);
-}
-
-// As in mark_facets, without a branch: corners lie anywhere in memory, and a wrong guess would wait
-// for each of them. So they are prefetched well before.
-template <bool Shared, bool Whole>
-void mark_list(const ListPart& list, FacetMarks& marks) {
-    constexpr std::size_t ahead = 16;
-    const Box inside = list.leaf->cell.lattice_box();
-    const LatticeMesh& mesh = marks.source()->mesh();
-    const auto facets = list.facets;
-    for (std::size_t i = 0; i < facets.size(); ++i) {
-        if (i + 2 * ahead < facets.size())
-            __builtin_prefetch(&mesh.triangles[facets[i + 2 * ahead]]);
-        if (i + ahead < facets.size())
-            __builtin_prefetch(&mesh.points[mesh.triangles[facets[i + ahead]][0]]);
-        const std::uint32_t f = facets[i];
-        const LatticePoint& p = mesh.points[mesh.triangles[f][0]];
-        const auto at = [&](int k) { return Whole ? p[k].to_integer() : position_of(p[k]); };
-        const bool owned = (int{at(0) >= inside.lo[0]} & int{at(0) <= inside.hi[0]} &
-                            int{at(1) >= inside.lo[1]} & int{at(1) <= inside.hi[1]} &
-                            int{at(2) >= inside.lo[2]} & int{at(2) <= inside.hi[2]}) != 0;
-        if constexpr (Shared) {
-            marks.add_present_shared(f, list.flipped, owned);
-        } else {
-            marks.add_present(f, list.flipped, owned);
-        }
-    }
-}
-
-void Gatherer::mark_lists() {
-    std::size_t facets = 0;
-    for (const ListPart& list : lists_) facets += list.facets.size();
-    constexpr std::size_t few = 65536;
-    const ParallelParts parts(lists_.size(), facets < few ? 1 : threads_, 1);
-    parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-        for (const ListPart& list : std::span(lists_).subspan(begin, end - begin)) {
-            FacetMarks& marks = out_.sources[list.table];
-            if (list.contained) {
-                for (const std::uint32_t f : list.facets) marks.set_present(f, list.flipped);
-            } else if (!marks.source()->is_whole()) {
-                mark_list<true, false>(list, marks);
-            } else if (parts.count() == 1) {
-                mark_list<false, true>(list, marks);
-            } else {
-                mark_list<true, true>(list, marks);
-            }
-        }
-    });
 }
 
 void Gatherer::mark_uncrossed(std::span<const UncrossedFacets> lists) {
@@ -703,72 +619,6 @@ void Gatherer::make_axis_faces() {
                 axis_faces_->add_vertices_in(e, inside_);
         leaves_[i].end_inside = inside_.size();
     }
-}
-
-// Union of points that are equal under different names. The representative is a corner of a source
-// if there is one, else the point made first.
-void Gatherer::merge_equal_points() {
-    // Few groups need the same planes as others.
-    constexpr std::size_t many_planes = 8192;
-    Workbench& bench = out_.bench;
-    same_.resize(bench.point_count());
-    std::iota(same_.begin(), same_.end(), 0);
-    if (axis_faces_->takes_all()) return;
-    const auto rank = [&](PointId p) {
-        if (!bench.is_corner(p)) return 0;
-        return bench.corner_name(p).first->serial() == first_serial_ ? 2 : 1;
-    };
-    const auto better = [&](PointId a, PointId b) {
-        return rank(a) != rank(b) ? rank(a) > rank(b) : a < b;
-    };
-    PoolVector<PointId> values;
-    for_each_near_group(bench, [&](std::span<const PointId> group) {
-        // Against one of each value: what is equal to it needs no comparison of its own.
-        values.clear();
-        through_.clear();
-        if (bench.made_plane_count() > many_planes) bench.forget_made_planes();
-        for (const PointId p : group) {
-            const auto value = std::ranges::find_if(
-                values, [&](PointId v) { return bench.may_be_same(v, p) && is_same(v, p); });
-            if (value == values.end()) {
-                values.push_back(p);
-                add_planes_through(p);
-                continue;
-            }
-            const PointId kept = same_[as_index(*value)];
-            same_[as_index(p)] = kept;
-            if (better(p, kept))
-                same_[as_index(kept)] = same_[as_index(*value)] = same_[as_index(p)] = p;
-        }
-    });
-    for (PointId& p : same_)
-        while (same_[as_index(p)] != p) p = same_[as_index(p)];
-}
-
-void Gatherer::add_planes_through(PointId value) {
-    const Workbench& bench = out_.bench;
-    if (bench.is_corner(value)) return;
-    for (const PlaneId p : bench.planes_of(value))
-        through_.emplace_back(value, bench.plane_class(p));
-}
-
-// Where several planes have a point in common any three of them name it. Once a plane is found to
-// contain the point other names that it occurs in cost no arithmetic.
-bool Gatherer::is_same(PointId value, PointId name) {
-    const Workbench& bench = out_.bench;
-    if (bench.is_corner(name) || (bench.is_lattice(value) && bench.is_lattice(name)))
-        return bench.same_point(value, name);
-    return std::ranges::all_of(bench.planes_of(name), [&](PlaneId p) {
-        const std::pair known(value, bench.plane_class(p));
-        if (std::ranges::find(through_, known) != through_.end()) return true;
-        if (!bench.is_corner(value) && passes_by_edges(bench, value, p)) {
-            ++out_.stats.named_by_edges;
-        } else if (bench.side(value, p) != 0) {
-            return false;
-        }
-        through_.push_back(known);
-        return true;
-    });
 }
 
 // Where a facet is in special position, what its outline encloses may have no width, as far as the

@@ -38,6 +38,7 @@ private:
     using Outline = AxisOutline<Number>;
     using Interval = AxisInterval<Number>;
     using Side = AxisSide<Number>;
+    static constexpr std::size_t least_planes = 8;  // fewer are not worth a part
     // A vertex on a line.
     struct Stop {
         std::uint32_t place = 0;  // its rank along the line
