@@ -10,6 +10,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -35,6 +36,14 @@ public:
     [[nodiscard]] virtual std::string version() const = 0;
 
     [[nodiscard]] virtual Body import(const trisect::PolygonMesh& mesh) = 0;
+    /// The same of many at once.
+    [[nodiscard]] virtual std::vector<Body> import_all(
+        std::span<const trisect::PolygonMesh> meshes) {
+        std::vector<Body> out;
+        out.reserve(meshes.size());
+        for (const trisect::PolygonMesh& m : meshes) out.push_back(import(m));
+        return out;
+    }
     /// Does for a solid, once, what would otherwise be left to the first operations with it.
     virtual void index(const Body& /*body*/) {}
     /// The union of `first`, combined with the union of `second`; all of `first` combined where

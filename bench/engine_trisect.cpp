@@ -4,6 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <oneapi/tbb/global_control.h>
 
@@ -11,6 +14,7 @@
 #include <trisect/bsp/expression.h>
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
+#include <trisect/bsp/solids_of_meshes.h>
 #include <trisect/kernel/diagnostics.h>
 
 #include "engine.h"
@@ -40,6 +44,13 @@ public:
 
     Body import(const trisect::PolygonMesh& mesh) override {
         return Solid::from_mesh(mesh, import_);
+    }
+
+    std::vector<Body> import_all(std::span<const trisect::PolygonMesh> meshes) override {
+        std::vector<Body> out;
+        out.reserve(meshes.size());
+        for (Solid& s : trisect::solids_of_meshes(meshes, import_)) out.emplace_back(std::move(s));
+        return out;
     }
 
     void index(const Body& body) override { solid(body).refine(options_.threads); }

@@ -198,9 +198,7 @@ private:
 
 void Job::run_expression(Times& t) {
     const Stopwatch import(options_.clock);
-    std::vector<Engine::Body> bodies;
-    bodies.reserve(scene_.operands.size());
-    for (const PolygonMesh& m : scene_.operands) bodies.push_back(engine_.import(m));
+    const std::vector<Engine::Body> bodies = engine_.import_all(scene_.operands);
     t.import = import.milliseconds();
     const Stopwatch evaluate(options_.clock);
     const std::span<const Engine::Body> all(bodies);

@@ -75,6 +75,7 @@
 #include <trisect/bsp/solid.h>
 #include <trisect/bsp/solid_measure.h>
 #include <trisect/bsp/solid_transform.h>
+#include <trisect/bsp/solids_of_meshes.h>
 #include <trisect/bsp/split.h>
 #include <trisect/bsp/verify.h>
 #include <trisect/kernel/diagnostics.h>

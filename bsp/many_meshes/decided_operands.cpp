@@ -35,14 +35,16 @@ BoundaryCells cells_of(const Source& source) {
 
 class Decider {
 public:
-    Decider(const ManyMeshes& meshes, std::span<const std::uint8_t> open_far_out)
-        : meshes_(meshes),
-          nested_(*meshes.nested),
+    Decider(const NestedFormula& nested, std::span<const Source* const> sources,
+            std::span<const std::uint8_t> open_far_out)
+        : nested_(nested),
+          sources_(sources),
           open_far_out_(open_far_out),
           large_terms_(nested_.size()) {
-        for (std::size_t s = 0; s < meshes.sources.size(); ++s) {
+        for (const Source* s : sources) facet_count_ += s->facet_count();
+        for (const Source* s : sources) {
             cells_.emplace_back();
-            if (is_large(s)) cells_.back() = cells_of(*meshes.sources[s]);
+            if (is_large(*s)) cells_.back() = cells_of(*s);
         }
         for (std::uint32_t n = 0; n < nested_.size(); ++n)
             for (const std::uint32_t t : nested_.node(n).terms)
@@ -55,7 +57,7 @@ public:
         const auto slot = static_cast<std::size_t>(node.slot);
         // What is left is what it has far out, which must leave its operation alone.
         if (cells_[slot] || holds_far_out(slot) == nested_.node(node.parent).unites) return false;
-        const OutlineBox box = outline_box(meshes_.sources[slot]->box());
+        const OutlineBox box = outline_box(sources_[slot]->box());
         std::uint32_t n = leaf;
         for (std::uint32_t parent = node.parent; n != parent;
              n = std::exchange(parent, nested_.node(parent).parent)) {
@@ -67,9 +69,8 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_large(std::size_t slot) const {
-        return meshes_.sources[slot]->facet_count() * meshes_.sources.size() >
-               large * meshes_.facet_count();
+    [[nodiscard]] bool is_large(const Source& source) const {
+        return source.facet_count() * sources_.size() > large * facet_count_;
     }
     [[nodiscard]] bool is_all_large(std::uint32_t number) const {
         const NestedFormula::Node& node = nested_.node(number);
@@ -97,8 +98,9 @@ private:
         return is_known ? 1 - deciding : -1;
     }
 
-    const ManyMeshes& meshes_;
     const NestedFormula& nested_;
+    std::span<const Source* const> sources_;
+    std::uint64_t facet_count_ = 0;
     std::span<const std::uint8_t> open_far_out_;
     std::vector<std::optional<BoundaryCells>> cells_;      // by slot
     std::vector<std::vector<std::uint32_t>> large_terms_;  // by node
@@ -106,13 +108,14 @@ private:
 
 }  // namespace
 
-std::vector<std::uint8_t> decided_operands(const ManyMeshes& meshes,
+std::vector<std::uint8_t> decided_operands(const NestedFormula& nested,
+                                           std::span<const Source* const> sources,
                                            std::span<const std::uint8_t> open_far_out) {
-    std::vector<std::uint8_t> out(meshes.sources.size(), 0);
+    std::vector<std::uint8_t> out(sources.size(), 0);
     if (out.size() < least_operands) return out;
-    Decider decider(meshes, open_far_out);
-    for (std::uint32_t n = 0; n < meshes.nested->size(); ++n)
-        if (const std::int32_t slot = meshes.nested->node(n).slot; slot >= 0)
+    Decider decider(nested, sources, open_far_out);
+    for (std::uint32_t n = 0; n < nested.size(); ++n)
+        if (const std::int32_t slot = nested.node(n).slot; slot >= 0)
             out[static_cast<std::size_t>(slot)] = decider.may_go(n) ? 1 : 0;
     return out;
 }

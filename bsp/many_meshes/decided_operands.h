@@ -7,16 +7,18 @@
 #include <span>
 #include <vector>
 
-#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
+#include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/many_meshes/outlines/nested_formula.h>
 
 namespace trisect::detail {
 
 /// By slot: whether the operand may be left out of the operation that it is a term of. So may a
 /// small one in a union, if that is intersected with large operands all of which are outside of
 /// themselves around its box. A decision for some of them only; none for few operands.
-/// `open_far_out`: by slot, whether it leaves open what is far out. \pre the formula is nested.
-/// O(n) for n facets and operands.
+/// `open_far_out`: by slot, whether it leaves open what is far out. O(n) for n facets and
+/// operands.
 [[nodiscard]] std::vector<std::uint8_t> decided_operands(
-    const ManyMeshes& meshes, std::span<const std::uint8_t> open_far_out);
+    const NestedFormula& nested, std::span<const Source* const> sources,
+    std::span<const std::uint8_t> open_far_out);
 
 }  // namespace trisect::detail

@@ -50,8 +50,10 @@ namespace trisect::detail {
 
 namespace {
 
-// Fewer facets are not worth a thread of their own.
+// Fewer facets are not worth a thread of their own, nor are more parts than this: what a thread has
+// made is copied when it comes to the other half.
 constexpr std::size_t parallel_facets = 2000;
+constexpr std::size_t most_parts = 256;
 
 const Source& source_of(const SolidState& solid) {
     return *solid.root().node->polygons().whole_source();
@@ -278,7 +280,11 @@ public:
 
     BalancedTree(const ManyMeshes& meshes, const SolidStates& solids,
                  const EvaluateSettings& options, bool parallel)
-        : meshes_(meshes), solids_(solids), options_(options), parallel_(parallel) {
+        : meshes_(meshes),
+          solids_(solids),
+          options_(options),
+          parallel_(parallel),
+          least_in_parallel_(std::max(parallel_facets, meshes.facet_count() / most_parts)) {
         if (meshes.nested == nullptr)
             set_order();
         else
@@ -340,20 +346,15 @@ private:
         clusters_.clear();
         order_ = std::move(all);
     }
-    // Terms of nested operations. Where operands do not fill one place, neighbours among them come
-    // first, and those that others decide are left out.
+    // Terms of nested operations.
     void set_terms() {
         const NestedFormula& nested = *meshes_.nested;
         for (std::uint32_t n = 0; n < nested.size(); ++n) terms_.push_back(nested.node(n).terms);
-        if (crowd_of(solids_) == Crowd::All) return;
-        std::vector<std::uint8_t> open_far_out;
-        for (std::uint32_t i = 0; i < solids_.size(); ++i)
-            open_far_out.push_back(is_open_far(i) ? 1 : 0);
-        const std::vector<std::uint8_t> decided = decided_operands(meshes_, open_far_out);
+        if (!meshes_.neighbours_come_first) return;
         boxes_ = boxes_of(solids_);
         neighbours_.resize(terms_.size());
         for (std::uint32_t n = 0; n < terms_.size(); ++n)
-            if (terms_[n].size() >= least_ordered) order_terms(n, decided, boxes_);
+            if (terms_[n].size() >= least_ordered) order_terms(n);
     }
     using Terms = std::vector<std::uint32_t>;
     static constexpr std::size_t least_ordered = 32;
@@ -361,8 +362,7 @@ private:
     static constexpr std::size_t least_with_settled = 2000;
 
     // Operands first, or as neighbours.
-    void order_terms(std::uint32_t node, std::span<const std::uint8_t> decided,
-                     std::span<const Box> boxes) {
+    void order_terms(std::uint32_t node) {
         Terms& terms = terms_[node];
         std::vector<std::uint32_t> slots;
         Terms others;
@@ -370,10 +370,10 @@ private:
             const std::int32_t slot = meshes_.nested->node(t).slot;
             if (slot < 0)
                 others.push_back(t);
-            else if (decided[static_cast<std::size_t>(slot)] == 0)
+            else
                 slots.push_back(static_cast<std::uint32_t>(slot));
         }
-        order_in_space(boxes, slots);
+        order_in_space(boxes_, slots);
         terms.clear();
         for (const std::uint32_t s : slots) terms.push_back(meshes_.nested->leaf(s));
         terms.insert(terms.end(), others.begin(), others.end());
@@ -419,7 +419,7 @@ private:
     [[nodiscard]] std::optional<Solid> of_clusters(Clusters clusters, EvaluateStats& stats) const {
         std::size_t facets = 0;
         for (const auto& slots : clusters) facets += facets_of(slots);
-        if (clusters.size() > 1 && parallel_ && facets >= parallel_facets) {
+        if (clusters.size() > 1 && parallel_ && facets >= least_in_parallel_) {
             const std::size_t half = clusters.size() / 2;
             const auto [one, other] = both(
                 facets, stats,
@@ -487,9 +487,12 @@ private:
     template <class Boundary, class Neighbours>
     [[nodiscard]] std::optional<Solid> of_boundary_and_neighbours(
         EvaluateStats& stats, const Boundary& boundary_by, const Neighbours& neighbours_by) const {
-        const auto [boundary, neighbours] =
-            both(parallel_facets, stats, boundary_by, neighbours_by);
-        if (!boundary || !neighbours) return std::nullopt;
+        // One after the other, each on all threads: one that waits for the other one would do
+        // nothing else.
+        const std::optional<Solid> boundary = boundary_by(stats);
+        if (!boundary) return std::nullopt;
+        const std::optional<Solid> neighbours = neighbours_by(stats);
+        if (!neighbours) return std::nullopt;
         BesideBoundary beside(common(), *boundary, *neighbours);
         const Solid near = beside.take(parallel_ ? 0 : 1);
         const std::optional<Solid> out = common().of(*boundary, near, stats, beside.known());
@@ -541,7 +544,7 @@ private:
                             const Above& above_by) const {
         Pair out;
         EvaluateStats of_above;
-        if (parallel_ && facets >= parallel_facets) {
+        if (parallel_ && facets >= least_in_parallel_) {
             out = both_in_parallel([&] { return below_by(stats); },
                                    [&] { return above_by(of_above); });
         } else {
@@ -598,6 +601,7 @@ private:
     const SolidStates& solids_;
     const EvaluateSettings& options_;
     bool parallel_;
+    std::size_t least_in_parallel_;  // facets
     // Of formulas that are not nested: the first operand with what all others leave open, these in
     // order, and clusters, if there are several.
     bool first_is_last_ = false;
@@ -866,15 +870,64 @@ UndividedMeshes form_of(const OutlineStore& store, const ManyMeshes& meshes,
 }
 
 // Operands as in an intersection, of what they are or their complements.
-std::optional<Crossings> nested_crossings(const Residual& formula, const SolidStates& solids) {
-    const auto nested = NestedFormula::read(formula, solids.size());
-    std::optional<Crossings> out = nested ? crossing_operands(solids) : std::nullopt;
+std::optional<Crossings> nested_crossings(const NestedFormula& nested, const SolidStates& solids) {
+    std::optional<Crossings> out = crossing_operands(solids);
     if (!out) return std::nullopt;
     for (std::size_t i = 0; i < solids.size(); ++i) {
         Crossings::Operand& o = out->operands[i];
-        o.open = nested->is_positive(i) ? 1 : 0;
-        o.inside_above = o.flipped == nested->is_positive(i);
+        o.open = nested.is_positive(i) ? 1 : 0;
+        o.inside_above = o.flipped == nested.is_positive(i);
     }
+    return out;
+}
+
+bool is_nested(const Residual& formula, const SolidStates& solids) {
+    const auto nested = NestedFormula::read(formula, solids.size());
+    return nested && nested_crossings(*nested, solids);
+}
+
+// What is evaluated: all operands, but those of a nested formula that others decide.
+struct Operands {
+    SolidStates solids;
+    std::optional<NestedFormula> nested;
+    Crossings crossings;
+    bool neighbours_come_first = false;
+};
+
+// Most of many small operands may be beside large ones: nothing is made for facets of these.
+void leave_out_decided(Operands& all) {
+    std::vector<const Source*> sources;
+    std::vector<std::uint8_t> open_far_out;
+    for (std::size_t i = 0; i < all.solids.size(); ++i) {
+        sources.push_back(&source_of(*all.solids[i]));
+        open_far_out.push_back(is_open_far_out(*all.solids[i], all.crossings.operands[i]) ? 1 : 0);
+    }
+    const std::vector<std::uint8_t> decided = decided_operands(*all.nested, sources, open_far_out);
+    SolidStates kept;
+    for (std::size_t i = 0; i < all.solids.size(); ++i)
+        if (decided[i] == 0) kept.push_back(all.solids[i]);
+    if (kept.size() == all.solids.size() || kept.size() < 2) return;
+    NestedFormula nested = all.nested->without(decided);
+    std::optional<Crossings> crossings = nested_crossings(nested, kept);
+    if (!crossings) return;
+    all.solids = std::move(kept);
+    all.nested = std::move(nested);
+    all.crossings = *std::move(crossings);
+}
+
+// Where operands of a nested formula do not fill one place, neighbours among them come first, and
+// those that others decide are left out.
+Operands operands_of(const Residual& formula, const SolidStates& solids) {
+    Operands out;
+    out.solids = solids;
+    if (auto flat = crossings_of(formula, solids)) {
+        out.crossings = *std::move(flat);
+        return out;
+    }
+    out.nested = NestedFormula::read(formula, solids.size());
+    out.crossings = *nested_crossings(*out.nested, solids);
+    out.neighbours_come_first = crowd_of(solids) != Crowd::All;
+    if (out.neighbours_come_first) leave_out_decided(out);
     return out;
 }
 
@@ -883,7 +936,7 @@ std::optional<Crossings> nested_crossings(const Residual& formula, const SolidSt
 bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                         const EvaluateSettings& options) {
     if (solids.size() < 3 || options.budget != nullptr || options.max_memory != 0 ||
-        (!crossings_of(*formula, solids) && !nested_crossings(*formula, solids)))
+        (!crossings_of(*formula, solids) && !is_nested(*formula, solids)))
         return false;
     return std::ranges::all_of(solids, [](const auto& s) {
         return s->root().node->refinement() == nullptr &&
@@ -917,41 +970,43 @@ bool are_nested(const SolidStates& solids) {
 
 namespace {
 
+// The box is that of all operands, also those that are left out.
+ManyMeshes meshes_of(const Operands& operands, const Box& all) {
+    ManyMeshes out;
+    out.nested = operands.nested ? &*operands.nested : nullptr;
+    out.neighbours_come_first = operands.neighbours_come_first;
+    out.operands = &operands.crossings;
+    std::size_t facets = 0;
+    for (const auto& s : operands.solids) facets += source_of(*s).facet_count();
+    out.slots.reserve(facets);
+    out.planes.reserve(facets);
+    for (const auto& s : operands.solids) {
+        const auto slot = static_cast<std::uint32_t>(out.sources.size());
+        out.sources.push_back(&source_of(*s));
+        out.slots.insert(out.slots.end(), source_of(*s).facet_count(), slot);
+        out.planes.add(source_of(*s).mesh());
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+        out.extent[k] = static_cast<double>(all.hi[k] - all.lo[k] + 2);
+    return out;
+}
+
 std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::Ref& formula,
                                            const SolidStates& solids,
                                            const EvaluateSettings& options, EvaluateStats& stats,
                                            std::shared_ptr<const LazyTree> tree) {
-    std::optional<Crossings> operands = crossings_of(*formula, solids);
-    std::optional<NestedFormula> nested;
-    if (!operands) {
-        nested = NestedFormula::read(*formula, solids.size());
-        operands = nested_crossings(*formula, solids);
-    }
-    ManyMeshes meshes;
-    meshes.nested = nested ? &*nested : nullptr;
-    meshes.operands = &*operands;
+    Operands operands = operands_of(*formula, solids);
     Box all;
-    std::size_t facets = 0;
-    for (const auto& s : solids) facets += source_of(*s).facet_count();
-    meshes.slots.reserve(facets);
-    meshes.planes.reserve(facets);
-    for (const auto& s : solids) {
-        const auto slot = static_cast<std::uint32_t>(meshes.sources.size());
-        meshes.sources.push_back(&source_of(*s));
-        meshes.slots.insert(meshes.slots.end(), source_of(*s).facet_count(), slot);
-        meshes.planes.add(source_of(*s).mesh());
-        all.add(source_of(*s).box());
-    }
-    for (std::size_t k = 0; k < 3; ++k)
-        meshes.extent[k] = static_cast<double>(all.hi[k] - all.lo[k] + 2);
+    for (const auto& s : solids) all.add(source_of(*s).box());
+    ManyMeshes meshes = meshes_of(operands, all);
     EvaluateStats made;
     auto result = on_threads(options.threads, [&](std::uint32_t threads) {
-        return common_of_all(meshes, solids, options, turns, threads, made);
+        return common_of_all(meshes, operands.solids, options, turns, threads, made);
     });
     if (!result) return std::nullopt;
-    operands->special = std::move(result->special);
-    UndividedMeshes form = form_of(result->store, meshes, *operands, std::move(tree));
-    form.may_have_straight_crossings = nested && !operands->special.empty();
+    operands.crossings.special = std::move(result->special);
+    UndividedMeshes form = form_of(result->store, meshes, operands.crossings, std::move(tree));
+    form.may_have_straight_crossings = operands.nested && !operands.crossings.special.empty();
     form.may_have_sheets = result->has_sheets;
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();
     stats = made;

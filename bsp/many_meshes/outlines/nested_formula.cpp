@@ -53,6 +53,25 @@ bool NestedFormula::add(const Residual& f, bool negated, std::uint32_t parent) {
     });
 }
 
+NestedFormula NestedFormula::without(std::span<const std::uint8_t> operands) const {
+    NestedFormula out(0);
+    std::vector<std::uint32_t> numbers(nodes_.size(), none);
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+        const Node& node = nodes_[n];
+        if (node.slot >= 0 && operands[static_cast<std::size_t>(node.slot)] != 0) continue;
+        numbers[n] = static_cast<std::uint32_t>(out.nodes_.size());
+        out.nodes_.push_back({node.slot, node.unites, numbers[node.parent], node.depth, {}});
+        if (n != root) out.nodes_[numbers[node.parent]].terms.push_back(numbers[n]);
+    }
+    for (std::size_t s = 0; s < leaves_.size(); ++s) {
+        if (operands[s] != 0) continue;
+        out.nodes_[numbers[leaves_[s]]].slot = static_cast<std::int32_t>(out.leaves_.size());
+        out.leaves_.push_back(numbers[leaves_[s]]);
+        out.positive_.push_back(positive_[s]);
+    }
+    return out;
+}
+
 bool NestedFormula::is_intersected(std::size_t slot) const {
     const Node& parent = nodes_[nodes_[leaves_[slot]].parent];
     return !parent.unites && std::ranges::any_of(parent.terms, [&](std::uint32_t t) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <trisect/bsp/cells/residual.h>
@@ -30,6 +31,10 @@ public:
     /// levels and for more than 64.
     [[nodiscard]] static std::optional<NestedFormula> read(const Residual& formula,
                                                            std::size_t slots);
+
+    /// Without some operands, by slot; those that are left have the next slots each. An operation
+    /// may have one term or none then.
+    [[nodiscard]] NestedFormula without(std::span<const std::uint8_t> operands) const;
 
     [[nodiscard]] const Node& node(std::uint32_t number) const { return nodes_[number]; }
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }

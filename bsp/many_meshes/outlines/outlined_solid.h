@@ -33,6 +33,8 @@ struct ManyMeshes {
     const OperandShifts* shifts = nullptr;
     const NestedFormula* nested = nullptr;  ///< if the formula is one; then all operands are as in
                                             ///< an intersection
+    /// Of a nested formula: not where operands fill one place.
+    bool neighbours_come_first = false;
 
     /// Whether an operand leaves open what is below its facets to those of another one.
     [[nodiscard]] bool is_open_below(std::uint32_t slot, std::uint32_t to) const {

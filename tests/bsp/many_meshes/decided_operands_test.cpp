@@ -20,11 +20,9 @@
 #include <trisect/brep/import_mesh.h>
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/sphere.h>
-#include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/residual.h>
 #include <trisect/bsp/cells/source.h>
 #include <trisect/bsp/many_meshes/outlines/nested_formula.h>
-#include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 
 namespace {
 
@@ -50,19 +48,14 @@ protected:
             small_.push_back({at(random), at(random), at(random)});
             add(trisect::make_box({-half, -half, -half}, {half, half, half}), small_.back());
         }
-        meshes_.operands = &operands_;
     }
     void add(trisect::PolygonMesh mesh, const Point3d& centre) {
         for (Point3d& p : mesh.points)
             for (std::size_t k = 0; k < 3; ++k) p[k] += centre[k];
         trisect::ImportOptions options;
         options.lattice = trisect::Lattice{-50};
-        const auto slot = static_cast<std::uint32_t>(sources_.size());
         sources_.push_back(Source::make(trisect::import_mesh(mesh, options).mesh));
-        auto& operand = operands_.operands.emplace_back();
-        operand.first = static_cast<std::uint32_t>(meshes_.slots.size());
-        meshes_.sources.push_back(sources_.back().get());
-        meshes_.slots.insert(meshes_.slots.end(), sources_.back()->facet_count(), slot);
+        in_use_.push_back(sources_.back().get());
     }
     [[nodiscard]] static Residual::Ref large(std::size_t i) {
         return Residual::of_slot(static_cast<int>(i));
@@ -78,14 +71,13 @@ protected:
     }
     // Of the small ones.
     [[nodiscard]] Decided decided(const Residual::Ref& formula) {
-        const auto nested = NestedFormula::read(*formula, meshes_.sources.size());
+        const auto nested = NestedFormula::read(*formula, in_use_.size());
         EXPECT_TRUE(nested.has_value());
         if (!nested) return {};
-        meshes_.nested = &*nested;
         std::vector<std::uint8_t> open_far_out;
-        for (std::size_t s = 0; s < meshes_.sources.size(); ++s)
+        for (std::size_t s = 0; s < in_use_.size(); ++s)
             open_far_out.push_back(nested->is_positive(s) ? 0 : 1);
-        Decided out = decided_operands(meshes_, open_far_out);
+        Decided out = decided_operands(*nested, in_use_, open_far_out);
         EXPECT_EQ(out[0] + out[1], 0);
         out.erase(out.begin(), out.begin() + 2);
         return out;
@@ -110,8 +102,7 @@ protected:
 
     std::vector<Point3d> small_;
     std::vector<std::shared_ptr<const Source>> sources_;
-    trisect::detail::Crossings operands_;
-    trisect::detail::ManyMeshes meshes_;
+    std::vector<const Source*> in_use_;
 };
 
 TEST_F(DecidedOperands, OutsideOfAUnion) {
