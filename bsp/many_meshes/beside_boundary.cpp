@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A facet in cells that hang together, and that the boundary is not in, is on one side of it, the
-// same for all in these cells. One corner of a whole facet says which; cells without one stay
-// unknown, and their facets count as being beside the boundary.
+// same for all in these cells. A corner of an operand says which; cells without one stay unknown,
+// and their facets count as being beside the boundary.
 
 #include <trisect/bsp/many_meshes/beside_boundary.h>
 
 #include <algorithm>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <trisect/bsp/many_meshes/outlines/settled_parts.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -18,136 +19,117 @@ namespace trisect::detail {
 namespace {
 
 using Side = VertexSides::Side;
+using Part = BoundarySides::Part;
 
-BoundaryCells cells_of(const OutlinedSolid& solid) {
-    BoundaryCells out(solid.box, solid.facets.size());
-    for (const OutlineBox& b : solid.boxes) out.occupy(b);
-    out.find_parts();
+constexpr std::uint32_t no_facet = ~std::uint32_t{0};
+
+OutlineVertex first_corner(const ManyMeshes& meshes, std::uint32_t slot, std::uint32_t facet) {
+    OutlineVertex out;
+    out.at = {meshes.sources[slot]->corner(facet, 0).doubles(), 0.0};
+    out.facets[0] = meshes.operands->operands[slot].first + facet;
     return out;
 }
 
+// By part of the cells: a facet of which the first corner is in it, the lowest one of all operands.
+class FacetsInCells {
+public:
+    FacetsInCells(const ManyMeshes& meshes, const BoundarySides& sides)
+        : meshes_(meshes), sides_(sides), facets_(sides.part_count(), no_facet) {}
+
+    void add(std::uint32_t slot) {
+        for (std::uint32_t f = 0; f < meshes_.sources[slot]->facet_count(); ++f) {
+            const OutlineVertex corner = first_corner(meshes_, slot, f);
+            OutlineBox box = OutlineBox::none();
+            box.add(corner.at);
+            std::uint32_t& lowest = facets_[sides_.part_of(box)];
+            lowest = std::min(lowest, corner.facets[0]);
+        }
+    }
+    void add(const FacetsInCells& others) {
+        for (std::size_t i = 0; i < facets_.size(); ++i)
+            facets_[i] = std::min(facets_[i], others.facets_[i]);
+    }
+    [[nodiscard]] std::uint32_t of(Part part) const { return facets_[part]; }
+
+private:
+    const ManyMeshes& meshes_;
+    const BoundarySides& sides_;
+    std::vector<std::uint32_t> facets_;
+};
+
 }  // namespace
 
-BesideBoundary::BesideBoundary(CommonPart& common, const Solid& other, const Solid& solid)
-    : common_(common),
-      solid_(solid),
-      other_(common.store().view(other, solid)),
-      cells_(cells_of(other_)) {
-    sides_.assign(cells_.part_count(), Side::Unknown);
-    sides_[BoundaryCells::outside] = other.open_far_out ? Side::Open : Side::Closed;
+BesideBoundary::BesideBoundary(CommonPart& common, const ManyMeshes& meshes, const Solid& boundary,
+                               std::span<const std::uint32_t> slots, std::uint32_t threads)
+    : common_(common), meshes_(meshes), sides_(common.store().view(boundary)) {
+    find_sides(common.store().view(boundary), slots, threads);
 }
 
-// Of parts of the solid.
-void BesideBoundary::find_places(std::size_t first, std::size_t end) {
-    for (std::size_t i = first; i < end; ++i) {
-        places_[i].reserve(parts_[i]->boxes.size());
-        for (const OutlineBox& b : parts_[i]->boxes) places_[i].push_back(cells_.part_of(b));
-    }
-}
-
-// Of cells in which a whole facet of the part is.
-void BesideBoundary::find_sides(std::size_t number) {
-    const SettledPart& part = *parts_[number];
-    for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const BoundaryCells::Part place = places_[number][f];
-        if (place == BoundaryCells::occupied || sides_[place] != Side::Unknown ||
-            !part.facets[f].whole)
-            continue;
-        const OutlineVertex& corner = part.vertices[part.edges[part.facets[f].first].from];
-        sides_[place] = common_.is_open_at_corner(corner, other_) ? Side::Open : Side::Closed;
+void BesideBoundary::find_sides(const OutlinedSolid& boundary, std::span<const std::uint32_t> slots,
+                                std::uint32_t threads) {
+    const ParallelParts ranges = parts_by_thread(slots.size(), threads, 64);
+    std::vector<FacetsInCells> found(ranges.count(), FacetsInCells(meshes_, sides_));
+    ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) found[range].add(slots[i]);
+    });
+    for (std::size_t i = 1; i < found.size(); ++i) found[0].add(found[i]);
+    for (Part part = BoundaryCells::outside + 1; part < sides_.part_count(); ++part) {
+        const std::uint32_t number = found[0].of(part);
+        if (number == no_facet) continue;
+        const std::uint32_t slot = meshes_.slot_of(number);
+        const OutlineVertex corner =
+            first_corner(meshes_, slot, number - meshes_.operands->operands[slot].first);
+        sides_.set(part, common_.is_open_at_corner(corner, boundary) ? Side::Open : Side::Closed);
     }
 }
 
 Side BesideBoundary::side_at(const OutlineVertex& vertex) const {
     OutlineBox box = OutlineBox::none();
     box.add(vertex.at);
-    const BoundaryCells::Part place = cells_.part_of(box);
-    return place == BoundaryCells::occupied ? Side::Unknown : sides_[place];
-}
-
-// Sorts facets: kept ones, those that are dropped, and those beside the boundary. Vertices of
-// these are shared.
-void BesideBoundary::sort(std::size_t number) {
-    SettledPart& part = *parts_[number];
-    PoolVector<Side> sides;
-    sides.reserve(part.facets.size());
-    for (std::size_t f = 0; f < part.facets.size(); ++f) {
-        const BoundaryCells::Part place = places_[number][f];
-        sides.push_back(place == BoundaryCells::occupied ? Side::Unknown : sides_[place]);
-        if (sides.back() != Side::Unknown) continue;
-        const OutlinedSolid::Facet& facet = part.facets[f];
-        for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e)
-            part.vertices[part.edges[e].from].is_shared = true;
-    }
-    PoolVector<OutlinedSolid::Facet> facets;
-    PoolVector<OutlineBox> boxes;
-    facets.reserve(part.facets.size());
-    boxes.reserve(part.facets.size());
-    for (const Side side : {Side::Open, Side::Closed, Side::Unknown}) {
-        for (std::size_t f = 0; f < sides.size(); ++f) {
-            if (sides[f] != side) continue;
-            facets.push_back(part.facets[f]);
-            boxes.push_back(part.boxes[f]);
-        }
-        if (side == Side::Open) kept_[number] = facets.size();
-        if (side == Side::Closed) far_[number] = facets.size();
-    }
-    part.facets = std::move(facets);
-    part.boxes = std::move(boxes);
+    return sides_.side_of(box);
 }
 
 // What is beside the boundary goes from the parts into a solid of its own.
-OutlineStore::Solid BesideBoundary::join_near() {
+OutlineStore::Solid BesideBoundary::join_near(SettledParts& parts) const {
     std::size_t facets = 0;
     std::size_t edges = 0;
-    for (std::size_t i = 0; i < parts_.size(); ++i)
-        for (std::size_t f = far_[i]; f < parts_[i]->facets.size(); ++f) {
+    for (const auto& part : parts)
+        for (std::size_t f = part->far; f < part->facets.size(); ++f) {
             ++facets;
-            edges += parts_[i]->facets[f].count;
+            edges += part->facets[f].count;
         }
     JoinedParts near(common_.store());
     near.reserve(facets, edges, edges / 3);
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        SettledPart& part = *parts_[i];
-        if (far_[i] == part.facets.size()) continue;
-        near.begin(part);
-        for (std::size_t f = far_[i]; f < part.facets.size(); ++f) near.add(part, f);
-        part.facets.resize(far_[i]);
-        part.boxes.resize(far_[i]);
+    for (const auto& part : parts) {
+        if (part->far == part->facets.size()) continue;
+        near.begin(*part);
+        for (std::size_t f = part->far; f < part->facets.size(); ++f) near.add(*part, f);
+        part->facets.resize(part->far);
+        part->boxes.resize(part->far);
     }
     return near.solid();
 }
 
-OutlineStore::Solid BesideBoundary::take(std::uint32_t threads) {
+OutlineStore::Solid BesideBoundary::take(const Solid& solid) {
     OutlineStore& store = common_.store();
-    parts_ = store.take_out(solid_);
-    places_.resize(parts_.size());
-    kept_.assign(parts_.size(), 0);
-    far_.assign(parts_.size(), 0);
-    const ParallelParts ranges(parts_.size(), threads, 4);
-    ranges.for_each(
-        [&](std::size_t, std::size_t first, std::size_t end) { find_places(first, end); });
-    for (std::size_t i = 0; i < parts_.size(); ++i) find_sides(i);
-    ranges.for_each([&](std::size_t, std::size_t first, std::size_t end) {
-        for (std::size_t i = first; i < end; ++i) sort(i);
-    });
-    Solid near = join_near();
+    SettledParts parts = store.take_out(solid);
+    Solid near = join_near(parts);
     // What is outside of all parts is far out.
-    for (const auto& part : parts_) near.box.add(part->box);
-    near.open_far_out = solid_.open_far_out;
+    for (const auto& part : parts) near.box.add(part->box);
+    near.open_far_out = solid.open_far_out;
     const std::span vertices = std::span(store.vertices()).subspan(near.vertices);
     known_.reserve(vertices.size());
     for (const OutlineVertex& v : vertices) known_.push_back(side_at(v));
-    for (auto& part : parts_) store.add_settled(std::move(part));
+    for (auto& part : parts) store.add_settled(std::move(part));
     return near;
 }
 
 // The result may have none of the parts, where boxes do not meet.
 void BesideBoundary::drop(const Solid& result) const {
-    const auto parts = common_.store().settled(result);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        parts[i]->facets.resize(kept_[i]);
-        parts[i]->boxes.resize(kept_[i]);
+    for (const auto& part : common_.store().settled(result)) {
+        part->facets.resize(part->open);
+        part->boxes.resize(part->open);
+        part->whole_closed = {};
     }
 }
 

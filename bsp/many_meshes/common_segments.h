@@ -34,6 +34,7 @@ public:
     CommonSegments(const ManyMeshes& meshes, const ShiftedPoints& exact)
         : meshes_(meshes), exact_(exact) {}
 
+    [[nodiscard]] const ManyMeshes& meshes() const { return meshes_; }
     /// The solids of all that follows.
     void start(const OutlinedSolid& first, const OutlinedSolid& second);
     /// False where that fails. \pre the facets at these places cross so

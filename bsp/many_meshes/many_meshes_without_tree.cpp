@@ -447,22 +447,11 @@ private:
     [[nodiscard]] std::optional<Solid> of_node_with_settled(std::uint32_t number,
                                                             EvaluateStats& stats) const {
         const NestedFormula::Node& node = meshes_.nested->node(number);
-        std::optional<Solid> out =
-            has_neighbours(number) ? of_terms_and_neighbours(number, stats)
-            : has_one_of_neighbours(number)
-                ? of_boundary_and_neighbours(
-                      stats, [&](EvaluateStats& s) { return of_term(number, 0, s); },
-                      [&](EvaluateStats& s) { return of_term(number, 1, s); })
-                : of_terms(terms_[number], node.unites, stats);
+        std::optional<Solid> out = has_neighbours(number) ? of_terms_and_neighbours(number, stats)
+                                   : has_one_of_neighbours(number)
+                                       ? of_term_and_neighbours(number, stats)
+                                       : of_terms(terms_[number], node.unites, stats);
         if (out && node.unites) out->open_far_out = !out->open_far_out;
-        return out;
-    }
-    // One of two terms, or its complement.
-    [[nodiscard]] std::optional<Solid> of_term(std::uint32_t number, std::size_t which,
-                                               EvaluateStats& stats) const {
-        const std::uint32_t term = terms_[number][which];
-        auto out = which == 0 ? of_node(term, stats) : of_node_with_settled(term, stats);
-        if (out && meshes_.nested->node(number).unites) out->open_far_out = !out->open_far_out;
         return out;
     }
     [[nodiscard]] bool has_neighbours(std::uint32_t number) const {
@@ -473,37 +462,56 @@ private:
         const std::vector<std::uint32_t>& terms = terms_[number];
         return terms.size() == 2 && has_neighbours(terms[1]) && terms_[terms[1]].empty();
     }
+    // The two, or their complements.
+    [[nodiscard]] std::optional<Solid> of_term_and_neighbours(std::uint32_t number,
+                                                              EvaluateStats& stats) const {
+        const Terms& terms = terms_[number];
+        const bool unites = meshes_.nested->node(number).unites;
+        std::optional<Solid> boundary = of_node(terms[0], stats);
+        if (!boundary) return std::nullopt;
+        boundary->open_far_out = boundary->open_far_out != unites;
+        const bool neighbours_unite = meshes_.nested->node(terms[1]).unites;
+        return of_boundary_and_neighbours(number, *boundary, neighbours_[terms[1]],
+                                          unites != neighbours_unite, stats);
+    }
     [[nodiscard]] std::optional<Solid> of_terms_and_neighbours(std::uint32_t number,
                                                                EvaluateStats& stats) const {
-        const auto of_those = [&](EvaluateStats& s) {
-            return of_neighbours(neighbours_[number], ClearBox(), s);
-        };
-        if (terms_[number].empty()) return of_those(stats);
+        if (terms_[number].empty())
+            return of_neighbours(neighbours_[number], ClearBox(), {}, stats);
         const bool unites = meshes_.nested->node(number).unites;
-        return of_boundary_and_neighbours(
-            stats, [&](EvaluateStats& s) { return of_terms(terms_[number], unites, s); }, of_those);
-    }
-    // What a solid and many neighbours leave open; these with settled parts.
-    template <class Boundary, class Neighbours>
-    [[nodiscard]] std::optional<Solid> of_boundary_and_neighbours(
-        EvaluateStats& stats, const Boundary& boundary_by, const Neighbours& neighbours_by) const {
-        // One after the other, each on all threads: one that waits for the other one would do
-        // nothing else.
-        const std::optional<Solid> boundary = boundary_by(stats);
+        const std::optional<Solid> boundary = of_terms(terms_[number], unites, stats);
         if (!boundary) return std::nullopt;
-        const std::optional<Solid> neighbours = neighbours_by(stats);
+        return of_boundary_and_neighbours(number, *boundary, neighbours_[number], false, stats);
+    }
+    // What a solid and many neighbours leave open, or the complement of what these do; with settled
+    // parts. One after the other, each on all threads: one that waits for the other one would do
+    // nothing else.
+    [[nodiscard]] std::optional<Solid> of_boundary_and_neighbours(std::uint32_t number,
+                                                                  const Solid& boundary,
+                                                                  Slots slots, bool complements,
+                                                                  EvaluateStats& stats) const {
+        const std::uint32_t threads = parallel_ ? 0 : 1;
+        BesideBoundary beside(common(), meshes_, boundary, slots, threads);
+        // What comes last takes parts as they are.
+        const Settling how{&beside.sides(), number == NestedFormula::root};
+        std::optional<Solid> neighbours = of_neighbours(slots, ClearBox(), how, stats);
         if (!neighbours) return std::nullopt;
-        BesideBoundary beside(common(), *boundary, *neighbours);
-        const Solid near = beside.take(parallel_ ? 0 : 1);
-        const std::optional<Solid> out = common().of(*boundary, near, stats, beside.known());
+        neighbours->open_far_out = neighbours->open_far_out != complements;
+        const Solid near = beside.take(*neighbours);
+        const std::optional<Solid> out = common().of(boundary, near, stats, beside.known());
         if (out) beside.drop(*out);
         return out;
     }
     // Of operands in the order of space, or of their complements, each of which leaves open what is
     // far out. With settled parts.
     [[nodiscard]] std::optional<Solid> of_neighbours(Slots slots, const ClearBox& clear,
+                                                     const Settling& how,
                                                      EvaluateStats& stats) const {
-        if (slots.size() == 1) return common().store().add_operand(meshes_, slots[0], true);
+        if (slots.size() == 1) {
+            Solid one = common().store().add_operand(meshes_, slots[0], true);
+            if (clear.is_all() && how.sides != nullptr) settle_rest(common().store(), one, how);
+            return one;
+        }
         const Slots first = slots.first(slots.size() / 2);
         const Slots second = slots.subspan(slots.size() / 2);
         const std::size_t facets = facets_of(slots);
@@ -511,14 +519,19 @@ private:
             facets, stats,
             [&](EvaluateStats& s) {
                 const ClearBox rest = clear.without(boxes_, second, first);
-                return of_neighbours(first, rest, s);
+                return of_neighbours(first, rest, how, s);
             },
             [&](EvaluateStats& s) {
                 const ClearBox rest = clear.without(boxes_, first, second);
-                return of_neighbours(second, rest, s);
+                return of_neighbours(second, rest, how, s);
             });
-        if (out && facets >= least_with_settled && slots.size() >= 8 && !clear.is_all())
-            settle(common().store(), *out, clear);
+        if (!out) return std::nullopt;
+        if (!clear.is_all()) {
+            if (facets >= least_with_settled && slots.size() >= 8)
+                settle(common().store(), *out, clear, how);
+        } else if (how.sides != nullptr) {
+            settle_rest(common().store(), *out, how);
+        }
         return out;
     }
 
@@ -730,7 +743,7 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
 
 using Parts = std::vector<OutlinedSolid>;
 
-// Settled ones, and what is not.
+// Settled ones, and what is not, with these once more.
 Parts parts_of(const OutlineStore& store) {
     Parts out;
     const OutlinedSolid solid = store.view({});
@@ -806,6 +819,9 @@ PoolVector<CutFacet> sort_facets(const Parts& parts, const Crossings& operands,
                 out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
             else
                 cut.push_back({f.number, f.slot, i, f.first, f.count});
+    for (const auto& part : parts.back().settled)
+        for (const SettledPart::Whole& w : part->whole_open)
+            out.uncrossed[w.slot].facets.push_back(w.number - operands.operands[w.slot].first);
     for (UncrossedFacets& u : out.uncrossed)
         if (!std::ranges::is_sorted(u.facets)) std::ranges::sort(u.facets);
     sort_by_number(cut, operands.operands.size());

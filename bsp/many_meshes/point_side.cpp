@@ -6,6 +6,7 @@
 
 #include <trisect/bsp/many_meshes/point_side.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -16,6 +17,52 @@
 namespace trisect::detail {
 
 namespace {
+
+// A whole facet that has no outline in its part.
+class WholeOutline {
+public:
+    WholeOutline(const ManyMeshes& meshes, const SettledPart::Whole& whole) {
+        facet_ = {whole.number, whole.slot, 0, 3, true};
+        const std::uint32_t first = meshes.operands->operands[whole.slot].first;
+        const std::array<Vector3, 3> corners = meshes.corners(whole.slot, whole.number - first);
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            OutlineVertex& v = vertices_[i];
+            v.at = {corners[i], 0.0};
+            v.facets[0] = whole.number;
+            v.which = static_cast<std::int8_t>(i);
+            box_.add(v.at);
+            edges_[i] = {i, i == 2 ? 0 : i + 1, EdgeOrigin(i)};
+        }
+    }
+    [[nodiscard]] const OutlineBox& box() const { return box_; }
+    [[nodiscard]] const OutlinedSolid::Facet& facet() const { return facet_; }
+    // Good as long as this is.
+    [[nodiscard]] OutlinedSolid view() const {
+        OutlinedSolid out;
+        out.edges = edges_;
+        out.vertices = vertices_;
+        return out;
+    }
+
+private:
+    OutlinedSolid::Facet facet_;
+    std::array<OutlinedSolid::Edge, 3> edges_;
+    std::array<OutlineVertex, 3> vertices_;
+    OutlineBox box_ = OutlineBox::none();
+};
+
+// Calls pass(outline) for those that the ray may meet, until it says false.
+template <class Ray, class Pass>
+bool pass_whole(const Ray& ray, const SettledPart& part, const ManyMeshes& meshes,
+                const Pass& pass) {
+    if (!ray.may_meet(part.box)) return true;
+    for (const auto* const all : {&part.whole_open, &part.whole_closed})
+        for (const SettledPart::Whole& w : *all) {
+            const WholeOutline outline(meshes, w);
+            if (ray.may_meet(outline.box()) && !pass(outline)) return false;
+        }
+    return true;
+}
 
 class AxisRay {
 public:
@@ -95,8 +142,15 @@ std::optional<bool> passes_odd(const AxisRay& ray, const OutlinedSolid& solid,
         return true;
     };
     if (!pass(solid, [&](std::uint32_t f) { return planes.plane(number, f); })) return std::nullopt;
+    const auto pass_one = [&](const WholeOutline& w) {
+        const std::optional<bool> met = ray.meets(w.view(), w.facet(), planes.plane_of(w.facet()));
+        if (met) odd = odd != *met;
+        return met.has_value();
+    };
     for (const auto& part : solid.settled)
-        if (!pass(part->view(), [&](std::uint32_t f) { return planes.plane_of(part->facets[f]); }))
+        if (!pass(part->view(),
+                  [&](std::uint32_t f) { return planes.plane_of(part->facets[f]); }) ||
+            !pass_whole(ray, *part, planes.meshes(), pass_one))
             return std::nullopt;
     return odd;
 }
@@ -161,7 +215,16 @@ bool is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid,
             if (ray.may_meet(part.boxes[f])) odd = odd != ray.meets(part.facets[f]);
     };
     pass(solid);
-    for (const auto& part : solid.settled) pass(part->view());
+    const auto pass_one = [&](const WholeOutline& w) {
+        const OutlinedSolid outline = w.view();
+        odd = odd != ExactRay(corner, outline, exact).meets(w.facet());
+        return true;
+    };
+    for (const auto& part : solid.settled) {
+        const OutlinedSolid view = part->view();
+        pass(view);
+        pass_whole(ExactRay(corner, view, exact), *part, exact.meshes(), pass_one);
+    }
     return solid.open_far_out != odd;
 }
 

@@ -23,6 +23,8 @@ public:
     ShiftedPoints(const ManyMeshes& meshes, SpecialPosition& special)
         : meshes_(meshes), special_(special) {}
 
+    [[nodiscard]] const ManyMeshes& meshes() const { return meshes_; }
+
     struct Side {
         int sign = 0;
         bool by_moves = false;  ///< the vertex is in the plane otherwise

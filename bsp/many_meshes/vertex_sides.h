@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <trisect/bsp/many_meshes/outlines/boundary_sides.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
@@ -16,7 +17,7 @@ namespace trisect::detail {
 /// Of vertices that are listed; keeps its memory, and what is done takes time by these.
 class VertexSides {
 public:
-    enum class Side : std::uint8_t { Unknown, Open, Closed };
+    using Side = OutlineSide;
 
     void start(std::size_t vertex_count) {
         if (marks_.size() < vertex_count) marks_.resize(vertex_count);

@@ -3,6 +3,8 @@
 // SettledPart: a part of the boundary of an outlined solid, by itself.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -18,7 +20,19 @@ struct SettledPart {
     PoolVector<OutlineBox> boxes;
     PoolVector<OutlinedSolid::Edge> edges;
     PoolVector<OutlineVertex> vertices;
-    OutlineBox box = OutlineBox::none();
+    OutlineBox box = OutlineBox::none();  ///< of all, also of those without outlines
+
+    /// A whole facet without an outline here.
+    struct Whole {
+        std::uint32_t number = 0;
+        std::uint32_t slot = 0;
+    };
+    PoolVector<Whole> whole_open;  ///< those that stay
+    PoolVector<Whole> whole_closed;
+    /// Where sides of a boundary are known: so many facets come first that it leaves open, and so
+    /// many that are not beside it.
+    std::size_t open = 0;
+    std::size_t far = 0;
 
     /// Good until the part changes.
     [[nodiscard]] OutlinedSolid view() const {

@@ -49,6 +49,19 @@ public:
         part_->boxes.push_back(solid_.boxes[place]);
         part_->box.add(solid_.boxes[place]);
     }
+    // A whole one that has no outline in the part.
+    void add_whole(std::size_t place, OutlineSide side) {
+        const OutlinedSolid::Facet& f = solid_.facets[place];
+        (side == OutlineSide::Open ? part_->whole_open : part_->whole_closed)
+            .push_back({f.number, f.slot});
+        part_->box.add(solid_.boxes[place]);
+    }
+    // Vertices of a facet that was added are others', too.
+    void share(std::size_t place) {
+        for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[place]))
+            vertex(e.from)->is_shared = true;
+    }
+    [[nodiscard]] SettledPart& part() { return *part_; }
     // Of a vertex of the solid, if the part has it; else null.
     [[nodiscard]] OutlineVertex* vertex(std::uint32_t v) {
         const std::uint32_t number = numbers_[v - first_vertex_];
@@ -96,6 +109,50 @@ void leave_out(OutlineStore& store, OutlineStore::Solid& solid,
     }
     store.facets().resize(left);
     store.boxes().resize(left);
+}
+
+using Settles = PoolVector<std::uint8_t>;  // by facet, whether it does
+
+// By facet that settles.
+PoolVector<OutlineSide> sides_of(const OutlinedSolid& all, const Settles& settles,
+                                 const Settling& how) {
+    PoolVector<OutlineSide> out(settles.size(), OutlineSide::Unknown);
+    if (how.sides == nullptr) return out;
+    for (std::size_t f = 0; f < settles.size(); ++f)
+        if (settles[f] != 0) out[f] = how.sides->side_of(all.boxes[f]);
+    return out;
+}
+
+void settle_those(OutlineStore& store, OutlineStore::Solid& solid, const Settles& settles,
+                  const Settling& how) {
+    const OutlinedSolid all = store.view(solid);
+    const PoolVector<OutlineSide> sides = sides_of(all, settles, how);
+    const auto has_outline = [&](std::size_t f) {
+        return !how.leaves_outlines || !all.facets[f].whole || sides[f] == OutlineSide::Unknown;
+    };
+    std::size_t facets = 0;
+    std::size_t edges = 0;
+    for (std::size_t f = 0; f < settles.size(); ++f) {
+        if (settles[f] == 0 || !has_outline(f)) continue;
+        ++facets;
+        edges += all.facets[f].count;
+    }
+    PartCopy part(store, solid, facets, edges);
+    for (const OutlineSide side : {OutlineSide::Open, OutlineSide::Closed, OutlineSide::Unknown}) {
+        for (std::size_t f = 0; f < settles.size(); ++f) {
+            if (settles[f] == 0 || sides[f] != side) continue;
+            if (!has_outline(f)) {
+                part.add_whole(f, side);
+                continue;
+            }
+            part.add(f);
+            if (how.sides != nullptr && side == OutlineSide::Unknown) part.share(f);
+        }
+        if (side == OutlineSide::Open) part.part().open = part.part().facets.size();
+        if (side == OutlineSide::Closed) part.part().far = part.part().facets.size();
+    }
+    leave_out(store, solid, settles, part);
+    store.add_settled(part.take());
 }
 
 }  // namespace
@@ -166,23 +223,23 @@ ClearBox ClearBox::without(std::span<const Box> boxes, std::span<const std::uint
     return out;
 }
 
-void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& clear) {
+void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& clear,
+            const Settling& how) {
     const OutlinedSolid all = store.view(solid);
-    PoolVector<std::uint8_t> settles(all.facets.size());
+    Settles settles(all.facets.size());
     std::size_t facets = 0;
-    std::size_t edges = 0;
     for (std::size_t f = 0; f < settles.size(); ++f) {
         if (!clear.has(all.boxes[f])) continue;
         settles[f] = 1;
         ++facets;
-        edges += all.facets[f].count;
     }
     if (facets < std::max(least_settled, settles.size() / least_part)) return;
-    PartCopy part(store, solid, facets, edges);
-    for (std::size_t f = 0; f < settles.size(); ++f)
-        if (settles[f] != 0) part.add(f);
-    leave_out(store, solid, settles, part);
-    store.add_settled(part.take());
+    settle_those(store, solid, settles, how);
+    store.tidy(solid);
+}
+
+void settle_rest(OutlineStore& store, OutlineStore::Solid& solid, const Settling& how) {
+    settle_those(store, solid, Settles(store.view(solid).facets.size(), 1), how);
     store.tidy(solid);
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 
 #include <trisect/bsp/cells/cell.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_sides.h>
 #include <trisect/bsp/many_meshes/outlines/outline_store.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/outlines/settled_part.h>
@@ -58,12 +59,24 @@ private:
     PoolVector<std::uint32_t> numbers_;  // by vertex of the part
 };
 
+/// What becomes of facets that settle.
+struct Settling {
+    /// Of a boundary that the solid will be intersected with; else nothing is known of any. Facets
+    /// that are not beside it come first in their part. Vertices of those beside it are shared.
+    const BoundarySides* sides = nullptr;
+    /// Whole facets that are not beside it go without outlines: nothing joins the parts again.
+    bool leaves_outlines = false;
+};
+
 /// Moves facets of the last solid that are within a box out of the way, to its settled parts,
 /// unless they are few. All operands that are still to come leave open what is far out; so these
 /// facets stay as they are. Vertices that others share with them become shared ones. O(n)
-void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& clear);
+void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& clear,
+            const Settling& how = {});
+/// All that is left, however few: nothing is to come.
+void settle_rest(OutlineStore& store, OutlineStore::Solid& solid, const Settling& how);
 
-/// Puts all parts of the last solid back, each vertex once. O(n)
+/// Puts all parts of the last solid back, each vertex once. O(n) \pre all have outlines
 void join_settled(OutlineStore& store, OutlineStore::Solid& solid);
 
 }  // namespace trisect::detail
