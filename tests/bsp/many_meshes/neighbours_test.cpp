@@ -110,4 +110,18 @@ TEST(Neighbours, ApartFromLargerOnes) {
     expect_same_as_cells(s.large - others);
 }
 
+// Nothing crosses it, so a ray through all small ones says on which side it is, also through those
+// facets of which no outline is left.
+TEST(Neighbours, LargeOneWithinASmallOne) {
+    const Scene s = scene(20308, 150);
+    const Expression inner = sphere(0.3, 2, {0.05, 0.12, 0.07});
+    const Expression tiny = sphere(0.05, 4, {0.06, 0.11, 0.07});
+    const Expression apart = sphere(0.05, 4, {1.7, 0.11, 0.07});
+    const Expression all = s.small | inner;
+    expect_same_as_cells((tiny | apart) & all);
+    expect_same_as_cells((tiny | apart) - all);
+    expect_same_as_cells((tiny - s.one) | all);
+    expect_same_as_cells(((s.one - tiny) | apart) & all);
+}
+
 }  // namespace

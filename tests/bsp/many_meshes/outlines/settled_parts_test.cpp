@@ -20,15 +20,18 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/cells/crossings.h>
 #include <trisect/bsp/cells/source.h>
+#include <trisect/bsp/many_meshes/outlines/boundary_sides.h>
 #include <trisect/bsp/many_meshes/outlines/outline_store.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 
 namespace {
 
+using trisect::detail::BoundarySides;
 using trisect::detail::Box;
 using trisect::detail::ClearBox;
 using trisect::detail::name_of;
 using trisect::detail::OutlinedSolid;
+using trisect::detail::OutlineSide;
 using trisect::detail::OutlineStore;
 using trisect::detail::OutlineVertex;
 
@@ -175,6 +178,45 @@ TEST_F(SettledParts, GoToAnotherStoreAndBack) {
     expect_all_facets();
     join_settled(store_, solid_);
     EXPECT_EQ(names_of(store_.view(solid_)), names_);
+    expect_all_facets();
+}
+
+// By a boundary that is beside some of them: a part of the same sphere, and all else is open.
+TEST_F(SettledParts, LieOnSidesOfABoundary) {
+    OutlineStore others;
+    OutlineStore::Solid boundary = others.add_operand(meshes_, 0, true);
+    settle(others, boundary, below(0, 0.8));
+    const BoundarySides sides(others.view(boundary));
+    settle_rest(store_, solid_, {&sides, true});
+    const OutlinedSolid all = store_.view(solid_);
+    EXPECT_TRUE(all.facets.empty());
+    ASSERT_EQ(all.settled.size(), 1U);
+    const auto& part = *all.settled[0];
+    EXPECT_TRUE(part.whole_closed.empty());
+    EXPECT_EQ(part.open, 0U);  // those are whole
+    EXPECT_EQ(part.far, 0U);
+    EXPECT_GT(part.whole_open.size(), facets_.size() / 2);
+    EXPECT_EQ(part.whole_open.size() + part.facets.size(), facets_.size());
+    for (const auto& box : part.boxes) EXPECT_EQ(sides.side_of(box), OutlineSide::Unknown);
+    for (const OutlineVertex& v : part.vertices) EXPECT_TRUE(v.is_shared);
+    std::set<std::uint32_t> numbers;
+    for (const auto& w : part.whole_open) numbers.insert(w.number);
+    for (const auto& f : part.facets) numbers.insert(f.number);
+    EXPECT_EQ(numbers.size(), facets_.size());
+}
+
+TEST_F(SettledParts, HaveOutlinesOnASideUnlessTheseAreLeft) {
+    OutlineStore others;
+    OutlineStore::Solid boundary = others.add_operand(meshes_, 0, false);
+    settle(others, boundary, below(0, 0.8));
+    const BoundarySides sides(others.view(boundary));
+    settle_rest(store_, solid_, {&sides, false});
+    const auto& part = *store_.view(solid_).settled[0];
+    EXPECT_EQ(part.open, 0U);  // what is far out is closed
+    EXPECT_GT(part.far, facets_.size() / 2);
+    for (std::size_t f = 0; f < part.facets.size(); ++f)
+        EXPECT_EQ(sides.side_of(part.boxes[f]),
+                  f < part.far ? OutlineSide::Closed : OutlineSide::Unknown);
     expect_all_facets();
 }
 
