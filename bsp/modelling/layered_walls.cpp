@@ -11,7 +11,7 @@
 namespace trisect::detail {
 namespace {
 
-constexpr double most_corners = 1 << 24;
+constexpr double most_corners_of_walls = 1 << 24;
 
 double squared_distance(const Point3d& a, const Point3d& b) {
     double sum = 0;
@@ -71,7 +71,7 @@ void add_ends(PolygonMesh& mesh, const PlaneRegion& region, std::uint32_t lower,
 void require_corners(const PlaneRegion& region, double copies) {
     // A region may be empty; its copies are a number of 32 bits all the same.
     const std::size_t points = std::max<std::size_t>(region.points.size(), 1);
-    if (!(copies * static_cast<double>(points) <= most_corners))
+    if (!(copies * static_cast<double>(points) <= most_corners_of_walls))
         throw LimitError("a solid of layers with more than 2^24 corners");
 }
 
