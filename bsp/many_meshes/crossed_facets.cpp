@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <trisect/kernel/support/deep_recursion.h>
+#include <trisect/kernel/support/task_group.h>
 
 namespace trisect::detail {
 
@@ -34,6 +35,9 @@ bool are_few_pairs(const Items& items) {
     const bool few = items[0].size() + items[1].size() <= few_items;
     return pairs_of(items) <= (few ? pairs_of_few : few_pairs);
 }
+
+// Fewer items of a cell are not worth a thread of their own.
+constexpr std::size_t least_at_once = std::size_t{1} << 16;
 
 constexpr std::array<std::size_t, 2> second_first{1, 0};
 
@@ -97,6 +101,8 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
     stats_ = &stats;
     found_.clear();
     known_.clear();
+    all_known_.clear();
+    is_shared_ = options_.threads != 1 && near[0].size() + near[1].size() >= 2 * least_at_once;
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Cell cell;
     cell.bounds = {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
@@ -104,7 +110,8 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
         cell.items[i].reserve(near[i].size());
         for (const std::uint32_t f : near[i]) cell.items[i].push_back({solids_[i]->boxes[f], f});
     }
-    return solve(cell);
+    if (!is_shared_) return solve(cell);
+    return isolated([&] { return solve(cell); });
 }
 
 bool CrossedFacetsFinder::solve(Cell& cell) {
@@ -204,7 +211,40 @@ bool CrossedFacetsFinder::divide(Cell& cell, const Splitter& splitter) {
         }
         cell.items[i] = {};
     }
-    return solve(children[0]) && solve(children[1]);
+    return solve_both(children);
+}
+
+// Large ones at the same time; what is found is the same, in the same order.
+bool CrossedFacetsFinder::solve_both(std::array<Cell, 2>& cells) {
+    const auto is_large = [](const Cell& c) {
+        return c.items[0].size() + c.items[1].size() >= least_at_once;
+    };
+    if (!is_shared_ || !std::ranges::all_of(cells, is_large))
+        return solve(cells[0]) && solve(cells[1]);
+    SpecialPosition special(meshes_.facet_count());
+    CrossedFacetsFinder other(meshes_, options_, special);
+    EvaluateStats made;
+    other.solids_ = solids_;
+    other.stats_ = &made;
+    other.is_shared_ = true;
+    std::array<bool, 2> are_solved{};
+    FirstFailure failure;
+    fork_join([&] { failure.guard(1, [&] { are_solved[1] = other.solve(cells[1]); }); },
+              [&] { failure.guard(0, [&] { are_solved[0] = solve(cells[0]); }); });
+    failure.rethrow();
+    *stats_ += made;
+    add(other);
+    return are_solved[0] && are_solved[1];
+}
+
+// What comes behind all of this.
+void CrossedFacetsFinder::add(const CrossedFacetsFinder& other) {
+    position_.add(other.position_);
+    for (const CrossedFacets& c : other.found_)
+        if (known_.find({c.places[0], c.places[1]}) < 0) found_.push_back(c);
+    for (const auto& places : other.all_known_)
+        if (known_.insert({places[0], places[1]}, 0).second && is_shared_)
+            all_known_.push_back(places);
 }
 
 bool CrossedFacetsFinder::compare(const Cell& cell) {
@@ -275,7 +315,10 @@ void CrossedFacetsFinder::keep(const Cell& cell, const std::array<std::uint32_t,
             if (!facets[i]->whole && !boxes[i]->meets(box)) return;
     }
     const bool is_once = lies_within(*boxes[0], cell.bounds) || lies_within(*boxes[1], cell.bounds);
-    if (!is_once && !known_.insert({places[0], places[1]}, 0).second) return;
+    if (!is_once) {
+        if (!known_.insert({places[0], places[1]}, 0).second) return;
+        if (is_shared_) all_known_.push_back(places);
+    }
     CrossedFacets& made = found_.emplace_back();
     made.places = places;
     made.crossing.ends = ends;

@@ -30,7 +30,11 @@ class CrossedFacetsFinder {
 public:
     CrossedFacetsFinder(const ManyMeshes& meshes, const EvaluateSettings& options,
                         SpecialPosition& special)
-        : meshes_(meshes), options_(options), special_(meshes, special), pairs_(meshes) {}
+        : meshes_(meshes),
+          options_(options),
+          position_(special),
+          special_(meshes, special),
+          pairs_(meshes) {}
 
     /// Places of facets whose boxes meet that of the other solid, ascending.
     using Places = std::array<std::span<const std::uint32_t>, 2>;
@@ -63,6 +67,8 @@ private:
     void draw_in(std::size_t solid, Item& item, const OutlineBox& reach) const;
     [[nodiscard]] static Splitter splitter_of(const Cell& cell);
     [[nodiscard]] bool divide(Cell& cell, const Splitter& splitter);
+    [[nodiscard]] bool solve_both(std::array<Cell, 2>& cells);
+    void add(const CrossedFacetsFinder& other);
     [[nodiscard]] bool compare(const Cell& cell);
     void leave_out_planes(const Cell& cell);
     [[nodiscard]] static std::array<std::uint32_t, 2> places_of(
@@ -75,10 +81,13 @@ private:
 
     const ManyMeshes& meshes_;
     const EvaluateSettings& options_;
+    SpecialPosition& position_;
     SpecialPairs special_;
     std::array<const OutlinedSolid*, 2> solids_{};
     PoolVector<CrossedFacets> found_;
     FlatMap known_;  // those that were found, where there are several cells
+    PoolVector<std::array<std::uint32_t, 2>> all_known_;
+    bool is_shared_ = false;  // among threads
     EvaluateStats* stats_ = nullptr;
     WholeFacetPairs pairs_;
     std::vector<std::uint32_t> planes_;  // across axes, of items of the second list and the first

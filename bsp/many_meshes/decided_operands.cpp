@@ -12,6 +12,7 @@
 
 #include <trisect/bsp/cells/source.h>
 #include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
@@ -36,16 +37,13 @@ BoundaryCells cells_of(const Source& source) {
 class Decider {
 public:
     Decider(const NestedFormula& nested, std::span<const Source* const> sources,
-            std::span<const std::uint8_t> open_far_out)
+            std::span<const std::uint8_t> open_far_out, std::uint32_t threads)
         : nested_(nested),
           sources_(sources),
           open_far_out_(open_far_out),
           large_terms_(nested_.size()) {
         for (const Source* s : sources) facet_count_ += s->facet_count();
-        for (const Source* s : sources) {
-            cells_.emplace_back();
-            if (is_large(*s)) cells_.back() = cells_of(*s);
-        }
+        make_cells(threads);
         for (std::uint32_t n = 0; n < nested_.size(); ++n)
             for (const std::uint32_t t : nested_.node(n).terms)
                 if (large_terms_[n].size() < most_large_terms && is_all_large(t))
@@ -69,6 +67,17 @@ public:
     }
 
 private:
+    void make_cells(std::uint32_t threads) {
+        std::vector<std::size_t> large_ones;
+        for (std::size_t s = 0; s < sources_.size(); ++s)
+            if (is_large(*sources_[s])) large_ones.push_back(s);
+        cells_.resize(sources_.size());
+        ParallelParts(large_ones.size(), threads, 1)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    cells_[large_ones[i]] = cells_of(*sources_[large_ones[i]]);
+            });
+    }
     [[nodiscard]] bool is_large(const Source& source) const {
         return source.facet_count() * sources_.size() > large * facet_count_;
     }
@@ -110,10 +119,11 @@ private:
 
 std::vector<std::uint8_t> decided_operands(const NestedFormula& nested,
                                            std::span<const Source* const> sources,
-                                           std::span<const std::uint8_t> open_far_out) {
+                                           std::span<const std::uint8_t> open_far_out,
+                                           std::uint32_t threads) {
     std::vector<std::uint8_t> out(sources.size(), 0);
     if (out.size() < least_operands) return out;
-    Decider decider(nested, sources, open_far_out);
+    Decider decider(nested, sources, open_far_out, threads);
     for (std::uint32_t n = 0; n < nested.size(); ++n)
         if (const std::int32_t slot = nested.node(n).slot; slot >= 0)
             out[static_cast<std::size_t>(slot)] = decider.may_go(n) ? 1 : 0;

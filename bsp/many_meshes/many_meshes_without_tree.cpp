@@ -45,6 +45,8 @@
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
+#include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect::detail {
 
@@ -567,7 +569,8 @@ private:
         stats += of_above;
         return out;
     }
-    // Each comes from the store of the thread that made it.
+    // Each comes from the store of the thread that made it. A thread that waits makes other parts
+    // of the tree: nothing of its own is behind what it has in its store then.
     template <class Below, class Above>
     [[nodiscard]] Pair both_in_parallel(const Below& below_by, const Above& above_by) const {
         using Taken = std::optional<std::pair<SettledParts, Solid>>;
@@ -576,7 +579,10 @@ private:
         const auto take = [&](const std::optional<Solid>& solid, Taken& to) {
             if (solid) to.emplace(common().store().take_out(*solid), *solid);
         };
-        both_at_once([&] { take(above_by(), above); }, [&] { take(below_by(), below); });
+        FirstFailure failure;
+        fork_join([&] { failure.guard(0, [&] { take(above_by(), above); }); },
+                  [&] { failure.guard(1, [&] { take(below_by(), below); }); });
+        failure.rethrow();
         if (!below || !above) return {};
         OutlineStore& store = common().store();
         const Solid first = store.put(std::move(below->first), below->second);
@@ -911,14 +917,15 @@ struct Operands {
 };
 
 // Most of many small operands may be beside large ones: nothing is made for facets of these.
-void leave_out_decided(Operands& all) {
+void leave_out_decided(Operands& all, std::uint32_t threads) {
     std::vector<const Source*> sources;
     std::vector<std::uint8_t> open_far_out;
     for (std::size_t i = 0; i < all.solids.size(); ++i) {
         sources.push_back(&source_of(*all.solids[i]));
         open_far_out.push_back(is_open_far_out(*all.solids[i], all.crossings.operands[i]) ? 1 : 0);
     }
-    const std::vector<std::uint8_t> decided = decided_operands(*all.nested, sources, open_far_out);
+    const std::vector<std::uint8_t> decided =
+        decided_operands(*all.nested, sources, open_far_out, threads);
     SolidStates kept;
     for (std::size_t i = 0; i < all.solids.size(); ++i)
         if (decided[i] == 0) kept.push_back(all.solids[i]);
@@ -933,7 +940,7 @@ void leave_out_decided(Operands& all) {
 
 // Where operands of a nested formula do not fill one place, neighbours among them come first, and
 // those that others decide are left out.
-Operands operands_of(const Residual& formula, const SolidStates& solids) {
+Operands operands_of(const Residual& formula, const SolidStates& solids, std::uint32_t threads) {
     Operands out;
     out.solids = solids;
     if (auto flat = crossings_of(formula, solids)) {
@@ -943,7 +950,7 @@ Operands operands_of(const Residual& formula, const SolidStates& solids) {
     out.nested = NestedFormula::read(formula, solids.size());
     out.crossings = *nested_crossings(*out.nested, solids);
     out.neighbours_come_first = crowd_of(solids) != Crowd::All;
-    if (out.neighbours_come_first) leave_out_decided(out);
+    if (out.neighbours_come_first) leave_out_decided(out, threads);
     return out;
 }
 
@@ -1011,13 +1018,14 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
                                            const SolidStates& solids,
                                            const EvaluateSettings& options, EvaluateStats& stats,
                                            std::shared_ptr<const LazyTree> tree) {
-    Operands operands = operands_of(*formula, solids);
+    Operands operands = operands_of(*formula, solids, options.threads);
     Box all;
     for (const auto& s : solids) all.add(source_of(*s).box());
     ManyMeshes meshes = meshes_of(operands, all);
     EvaluateStats made;
     auto result = on_threads(options.threads, [&](std::uint32_t threads) {
-        return common_of_all(meshes, operands.solids, options, turns, threads, made);
+        return isolated(
+            [&] { return common_of_all(meshes, operands.solids, options, turns, threads, made); });
     });
     if (!result) return std::nullopt;
     operands.crossings.special = std::move(result->special);

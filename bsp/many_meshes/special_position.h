@@ -26,6 +26,11 @@ public:
         return !marks_.empty() && marks_[facet] != 0;
     }
     void want(const OperandShifts::Wanted& wanted);
+    /// What was found of other facets.
+    void add(const SpecialPosition& other) {
+        for (const std::uint32_t f : other.facets_) note(f);
+        for (const OperandShifts::Wanted& w : other.wanted_) want(w);
+    }
 
     /// In no order, each once.
     [[nodiscard]] const std::vector<std::uint32_t>& facets() const { return facets_; }

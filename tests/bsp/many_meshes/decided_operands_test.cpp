@@ -77,7 +77,7 @@ protected:
         std::vector<std::uint8_t> open_far_out;
         for (std::size_t s = 0; s < in_use_.size(); ++s)
             open_far_out.push_back(nested->is_positive(s) ? 0 : 1);
-        Decided out = decided_operands(*nested, in_use_, open_far_out);
+        Decided out = decided_operands(*nested, in_use_, open_far_out, 2);
         EXPECT_EQ(out[0] + out[1], 0);
         out.erase(out.begin(), out.begin() + 2);
         return out;
