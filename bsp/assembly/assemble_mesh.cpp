@@ -490,7 +490,7 @@ struct ListedFacets {
 PolygonMesh assemble_on_threads(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                                 std::uint32_t threads, const MeshDetails& details) {
     // No arena for what no step would divide.
-    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
+    const bool small = std::visit(ListedFacets(), solid.form) < 1024;
     return on_threads(small ? 1 : threads, [&](std::uint32_t n) {
         return assemble(solid, stats, by_planes, n, details);
     });

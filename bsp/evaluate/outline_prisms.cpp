@@ -12,6 +12,8 @@
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/leaf/prism/prism_arrangement.h>
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -54,11 +56,13 @@ bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
     });
 }
 
-std::optional<SolidForm> outline_prisms(const Residual::Ref& formula, const SolidStates& solids,
-                                        const EvaluateSettings& options, EvaluateStats& stats,
-                                        std::shared_ptr<const LazyTree> tree) {
+namespace {
+
+std::optional<SolidForm> outline_on_threads(const Residual::Ref& formula, const SolidStates& solids,
+                                            const EvaluateSettings& options, EvaluateStats& stats,
+                                            std::shared_ptr<const LazyTree> tree) {
     Box all;
-    std::vector<PolygonRef> polygons;
+    PoolVector<PolygonRef> polygons;
     polygons.reserve(total_size(solids));
     for (const auto& s : solids) {
         for (const PolygonRef r : s->root().node->polygons()) polygons.push_back(r);
@@ -91,6 +95,18 @@ std::optional<SolidForm> outline_prisms(const Residual::Ref& formula, const Soli
     return PrismOutlines{std::move(whole),
                          std::make_shared<const NamedOutlines>(std::move(made.outlines)),
                          std::move(tree)};
+}
+
+}  // namespace
+
+std::optional<SolidForm> outline_prisms(const Residual::Ref& formula, const SolidStates& solids,
+                                        const EvaluateSettings& options, EvaluateStats& stats,
+                                        std::shared_ptr<const LazyTree> tree) {
+    return on_threads(options.threads, [&](std::uint32_t threads) {
+        EvaluateSettings here = options;
+        here.threads = threads;
+        return outline_on_threads(formula, solids, here, stats, std::move(tree));
+    });
 }
 
 }  // namespace trisect::detail

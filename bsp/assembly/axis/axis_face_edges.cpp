@@ -243,10 +243,8 @@ void AxisFaceOutlines<Number>::add_line(FacePlane& face_plane, const Interval& i
     line_.erase(std::unique(line_.begin(), line_.end()), line_.end());
     const auto first = static_cast<std::uint32_t>(stops_.size());
     for (const std::uint32_t place : line_) stops_.push_back({place});
-    if (keeps_lines_) {
-        lines_[along].insert({line_at(along, at), 0}, static_cast<std::int32_t>(all_lines_.size()));
-        all_lines_.push_back({first, static_cast<std::uint32_t>(stops_.size())});
-    }
+    lines_[along].insert({line_at(along, at), 0}, static_cast<std::int32_t>(all_lines_.size()));
+    all_lines_.push_back({{first, static_cast<std::uint32_t>(stops_.size())}, along, at});
     for (const LineRun& r : std::span(runs).first(count)) {
         std::uint32_t i = 0;
         for (std::uint32_t n = r.run.first; n < r.run.end; ++n) {
@@ -278,10 +276,30 @@ auto AxisFaceOutlines<Number>::face_plane_at_rank(std::size_t axis, std::uint32_
 }
 
 template <class Number>
+auto AxisFaceOutlines<Number>::face_plane_at_rank(std::size_t axis, std::uint32_t rank) const
+    -> const FacePlane& {
+    return face_planes_[as_index(face_plane_of_[axis][rank])];
+}
+
+template <class Number>
 PlaneId AxisFaceOutlines<Number>::plane_of(std::size_t axis, std::uint32_t rank) {
     FacePlane& s = face_plane_at_rank(axis, rank);
     if (s.id < 0) s.id = parts_.bench.plane(s.name);
     return s.id;
+}
+
+// Of a vertex that has none. What nothing else names takes no name.
+template <class Number>
+PointId AxisFaceOutlines<Number>::new_point(const Ranks& ranks) {
+    if (names_points_) return point_at(ranks);
+    if (const std::int32_t c = corner_ids_.find(key_of(ranks)); c >= 0) {
+        const CornerName& name = corners_[as_index(c)];
+        return parts_.bench.add_corner(name.source,
+                                       name.source->corner_index(name.facet, name.corner));
+    }
+    std::array<PlaneId, 3> planes{};
+    for (std::size_t k = 0; k < 3; ++k) planes[k] = plane_of(k, ranks[k]);
+    return parts_.bench.add_point(planes[0], planes[1], planes[2], place_at(ranks));
 }
 
 template <class Number>
@@ -297,28 +315,79 @@ PointId AxisFaceOutlines<Number>::make_point(const Ranks& ranks) {
         const CornerName& name = corners_[as_index(c)];
         return parts_.bench.corner(name.source, name.facet, name.corner);
     }
-    Approximation at;
-    for (std::size_t k = 0; k < 3; ++k) at.c[k] = Numbers::to_double(coordinates_[k][ranks[k]]);
     return parts_.bench.vertex({}, plane_of(0, ranks[0]), plane_of(1, ranks[1]),
-                               plane_of(2, ranks[2]), at);
+                               plane_of(2, ranks[2]), place_at(ranks));
 }
 
 template <class Number>
+Approximation AxisFaceOutlines<Number>::place_at(const Ranks& ranks) const {
+    Approximation at;
+    for (std::size_t k = 0; k < 3; ++k) at.c[k] = Numbers::to_double(coordinates_[k][ranks[k]]);
+    return at;
+}
+
+// Points and planes are named by one thread, in the order of the edges, which several threads
+// write.
+template <class Number>
 void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
     if (taken_count_ == 0) return;
-    keeps_lines_ = !others_.empty();
+    names_points_ = parts_.bench.point_count() != 0;
     place_others();
     list_corners();
     rank_coordinates();
     name_corners();
     make_stops();
+    unite_stops();
     for (std::size_t i = 0; i < others_.size(); ++i)
         (void)point_ids_.insert(key_of(ranks_of(places_[i])), others_[i]);
-    edges.reserve(edges.size() + count_edges());
-    for (const Face& face : faces_in_order()) {
+    const std::vector<Face> faces = faces_in_order();
+    PoolVector<std::size_t> first;  // edge of each face
+    std::size_t count = edges.size();
+    for (const Face& face : faces) {
         check_stop(face.intervals.size());
-        make_edges_of(face, edges);
+        name_points(face);
+        first.push_back(count);
+        count += count_edges(face);
     }
+    edges.resize(count);
+    ParallelParts(faces.size(), threads_, least_planes)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                make_edges_of(faces[i], edges.data() + first[i]);
+        });
+}
+
+// A vertex is a stop on up to three lines; the one along the first axis stands for it.
+template <class Number>
+void AxisFaceOutlines<Number>::unite_stops() {
+    constexpr std::size_t least_lines = 256;
+    ParallelParts(all_lines_.size(), threads_, least_lines)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (const StopLine& line : std::span(all_lines_).subspan(begin, end - begin)) {
+                Ranks at = line.at;
+                for (std::uint32_t i = line.stops.first; i < line.stops.end; ++i) {
+                    at[line.along] = stops_[i].place;
+                    stops_[i].same = first_stop_at(at, line.along, i);
+                }
+            }
+        });
+}
+
+// On a line along one of so many axes; else its own.
+template <class Number>
+std::uint32_t AxisFaceOutlines<Number>::first_stop_at(const Ranks& at, std::size_t axes,
+                                                      std::uint32_t own) const {
+    for (std::size_t k = 0; k < axes; ++k) {
+        const std::int32_t line = lines_[k].find({line_at(k, at), 0});
+        if (line < 0) continue;
+        const Stops& on_line = all_lines_[as_index(line)].stops;
+        const auto end = stops_.begin() + on_line.end;
+        const auto stop =
+            std::ranges::lower_bound(stops_.begin() + on_line.first, end, at[k], {}, &Stop::place);
+        if (stop != end && stop->place == at[k])
+            return static_cast<std::uint32_t>(stop - stops_.begin());
+    }
+    return own;
 }
 
 // In the order of their facets.
@@ -340,16 +409,26 @@ auto AxisFaceOutlines<Number>::faces_in_order() const -> std::vector<Face> {
 }
 
 template <class Number>
-std::size_t AxisFaceOutlines<Number>::count_edges() const {
+std::size_t AxisFaceOutlines<Number>::count_edges(const Face& face) const {
+    const auto& stops = face_planes_[face.face_plane].stops;
     std::size_t out = 0;
-    for (const FacePlane& s : face_planes_)
-        for (const Stops& stops : s.stops) out += stops.end - stops.first - 1;
+    for (const std::uint32_t n : face.intervals) out += stops[n].end - stops[n].first - 1;
     return out;
 }
 
+// In the direction of the interval.
 template <class Number>
-void AxisFaceOutlines<Number>::make_edges_of(const Face& face, BoundaryEdges& edges) {
-    FacePlane& face_plane = face_planes_[face.face_plane];
+template <class Visit>
+void AxisFaceOutlines<Number>::for_each_stop(const Interval& interval, const Stops& stops,
+                                             const Visit& visit) const {
+    const std::uint32_t count = stops.end - stops.first;
+    for (std::uint32_t i = 0; i < count; ++i)
+        visit(interval.runs_up() ? stops.first + i : stops.end - 1 - i);
+}
+
+template <class Number>
+void AxisFaceOutlines<Number>::name_points(const Face& face) {
+    const FacePlane& face_plane = face_planes_[face.face_plane];
     BoundaryFacet& f = parts_.facets[as_index(face.first)];
     f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
     f.parts = 1;
@@ -358,18 +437,31 @@ void AxisFaceOutlines<Number>::make_edges_of(const Face& face, BoundaryEdges& ed
         const std::size_t across = across_of(face_plane, s);
         const std::size_t along = along_of(face_plane, s);
         Ranks at = line_of(face_plane, s);
-        const FacePlane& beside = face_plane_at_rank(across, at[across]);
-        BoundaryEdge e{-1, -1, face.first, {}};
-        e.line = {plane_of(across, at[across]), s.is_low == (beside.plane.sign > 0)};
-        const auto stops = std::span(stops_).subspan(
-            face_plane.stops[n].first, face_plane.stops[n].end - face_plane.stops[n].first);
-        for (std::size_t i = 0; i < stops.size(); ++i) {
-            Stop& stop = stops[s.runs_up() ? i : stops.size() - 1 - i];
+        (void)plane_of(across, at[across]);
+        for_each_stop(s, face_plane.stops[n], [&](std::uint32_t i) {
+            const Stop& stop = stops_[i];
+            PointId& point = stops_[stop.same].point;
+            if (point >= 0) return;
             at[along] = stop.place;
-            if (stop.point < 0) stop.point = point_at(at);
-            e.from = std::exchange(e.to, stop.point);
-            if (i != 0) edges.push_back(e);
-        }
+            point = new_point(at);
+        });
+    }
+}
+
+// \pre named; count_edges() of them
+template <class Number>
+void AxisFaceOutlines<Number>::make_edges_of(const Face& face, BoundaryEdge* out) const {
+    const FacePlane& face_plane = face_planes_[face.face_plane];
+    for (const std::uint32_t n : face.intervals) {
+        const Interval& s = face_plane.outline.intervals()[n];
+        const std::size_t across = across_of(face_plane, s);
+        const FacePlane& beside = face_plane_at_rank(across, line_of(face_plane, s)[across]);
+        BoundaryEdge e{-1, -1, face.first, {}};
+        e.line = {beside.id, s.is_low == (beside.plane.sign > 0)};
+        for_each_stop(s, face_plane.stops[n], [&](std::uint32_t i) {
+            e.from = std::exchange(e.to, stops_[stops_[i].same].point);
+            if (e.from >= 0) *out++ = e;
+        });
     }
 }
 
@@ -403,7 +495,7 @@ void AxisFaceOutlines<Number>::add_vertices_in(const BoundaryEdge& edge, PoolVec
         out.push_back(point_at(at));
     };
     if (const std::int32_t line = lines_[along].find({line_at(along, at), 0}); line >= 0) {
-        const Stops& on_line = all_lines_[as_index(line)];
+        const Stops& on_line = all_lines_[as_index(line)].stops;
         for (std::uint32_t i = on_line.first; i < on_line.end; ++i) add(stops_[i].place);
     } else {
         for (const Other& o : others_on(along, at)) add(o.place);

@@ -460,12 +460,18 @@ void AxisFaceOutlines<Number>::judge() {
             for (FacePlane& s : std::span(face_planes_).subspan(begin, end - begin))
                 s.is_general = s.is_general || !s.outline.finish();
         });
-    for (std::size_t i = 0; i < facets_.size(); ++i) {
-        const Facet& f = facets_[i];
-        if (f.face_plane < 0) continue;
-        FacePlane& s = face_planes_[as_index(f.face_plane)];
-        s.is_general = s.is_general || f.is_blocked || !has_changed(static_cast<std::int32_t>(i));
-    }
+    constexpr std::size_t least_judged = 1024;
+    PoolVector<std::uint8_t> stay(facets_.size());  // may come out as they went in
+    ParallelParts(facets_.size(), threads_, least_judged)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Facet& f = facets_[i];
+                if (f.face_plane < 0 || face_planes_[as_index(f.face_plane)].is_general) continue;
+                stay[i] = f.is_blocked || !has_changed(static_cast<std::int32_t>(i)) ? 1 : 0;
+            }
+        });
+    for (std::size_t i = 0; i < facets_.size(); ++i)
+        if (stay[i] != 0) face_planes_[as_index(facets_[i].face_plane)].is_general = true;
     for (const FacePlane& s : face_planes_) part_count_ += s.is_general ? 0 : s.parts;
     taken_.assign(facets_.size(), false);
     for (std::size_t i = 0; i < facets_.size(); ++i) {

@@ -39,15 +39,24 @@ private:
     using Interval = AxisInterval<Number>;
     using Side = AxisSide<Number>;
     static constexpr std::size_t least_planes = 8;  // fewer are not worth a part
+    // Places by their ranks among the coordinates of each axis.
+    using Ranks = std::array<std::uint32_t, 3>;
     // A vertex on a line.
     struct Stop {
         std::uint32_t place = 0;  // its rank along the line
-        PointId point = -1;       // once it was requested
+        std::uint32_t same = 0;   // the stop that stands for all of this vertex
+        PointId point = -1;       // of that one, once it was requested
     };
     // The stops of one line, or of an interval with its ends.
     struct Stops {
         std::uint32_t first = 0;
         std::uint32_t end = 0;
+    };
+    // All stops of a line along an axis.
+    struct StopLine {
+        Stops stops;
+        std::size_t along = 0;
+        Ranks at{};  // 0 along the axis
     };
     /// A plane. By facing of its faces, down and up: the first facet.
     struct FacePlane {
@@ -88,8 +97,6 @@ private:
         std::uint32_t facet = 0;
         int corner = 0;
     };
-    // Places by their ranks among the coordinates of each axis.
-    using Ranks = std::array<std::uint32_t, 3>;
     // A line by the ranks along the two axes after its own.
     using LineKey = std::uint64_t;
     static LineKey line_at(std::size_t along, const Ranks& r) {
@@ -159,7 +166,6 @@ private:
     void add_other(const Ranks& at);
     void make_stops();
     void add_line(FacePlane& face_plane, const Interval& interval);
-    [[nodiscard]] std::size_t count_edges() const;
     // A face: all of a plane with one facing.
     struct Face {
         std::int32_t first = -1;  // of its facets
@@ -168,12 +174,21 @@ private:
         PoolVector<std::uint32_t> intervals;  // loop after loop
     };
     [[nodiscard]] std::vector<Face> faces_in_order() const;
-    void make_edges_of(const Face& face, BoundaryEdges& edges);
+    [[nodiscard]] std::size_t count_edges(const Face& face) const;
+    void unite_stops();
+    [[nodiscard]] std::uint32_t first_stop_at(const Ranks& at, std::size_t axes,
+                                              std::uint32_t own) const;
+    void name_points(const Face& face);
+    void make_edges_of(const Face& face, BoundaryEdge* out) const;
+    template <class Visit>
+    void for_each_stop(const Interval& interval, const Stops& stops, const Visit& visit) const;
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, Number at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
+    [[nodiscard]] PointId new_point(const Ranks& ranks);
     [[nodiscard]] PointId point_at(const Ranks& ranks);
     [[nodiscard]] PointId make_point(const Ranks& ranks);
+    [[nodiscard]] Approximation place_at(const Ranks& ranks) const;
     [[nodiscard]] static std::size_t along_of(const FacePlane& face_plane,
                                               const Interval& interval) {
         return (face_plane.plane.axis + 2 - interval.axis) % 3;
@@ -185,6 +200,7 @@ private:
     [[nodiscard]] static Ranks line_of(const FacePlane& face_plane, const Interval& interval);
     [[nodiscard]] std::span<const Other> others_on(std::size_t along, const Ranks& line) const;
     [[nodiscard]] FacePlane& face_plane_at_rank(std::size_t axis, std::uint32_t rank);
+    [[nodiscard]] const FacePlane& face_plane_at_rank(std::size_t axis, std::uint32_t rank) const;
     static Key128 key_of(const Ranks& r) { return {(std::uint64_t{r[0]} << 32) | r[1], r[2]}; }
 
     BoundaryParts& parts_;
@@ -199,7 +215,7 @@ private:
     std::vector<Facet> facets_;
     std::vector<FacePlane> face_planes_;
     FlatMap face_plane_ids_;
-    bool keeps_lines_ = false;  // for add_vertices_in()
+    bool names_points_ = false;  // others have points as well
     // Corners that are vertices of parts of facets taken, then those of facets that pass through,
     // in axis-perpendicular leaves.
     std::vector<CornerName> corners_;
@@ -214,7 +230,7 @@ private:
     std::array<PoolVector<std::int32_t>, 3> face_plane_of_;  // by rank
     std::array<std::vector<Other>, 3> other_stops_;          // sorted
     PoolVector<Stop> stops_;                                 // line by line
-    std::vector<Stops> all_lines_;    // where queries are possible, and their keys
+    std::vector<StopLine> all_lines_;
     std::array<FlatMap, 3> lines_;    // by axis
     PoolVector<std::uint32_t> line_;  // the places on the line in the making
     FlatMap corner_ids_;

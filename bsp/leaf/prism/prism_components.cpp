@@ -36,17 +36,18 @@ bool PrismComponents::list(const LeafProblem& problem, const PrismFacets& facets
         const std::uint32_t v = point(c.operand, c.ref, 0);
         for (int i = 1; i < 3; ++i) join(v, point(c.operand, c.ref, i));
     }
-    components_.clear();
+    positions_.clear();
     number_.assign(points, -1);
     of_cap_.clear();
     for (const PrismCap& c : facets.caps()) {
         std::int32_t& n = number_[root(point(c.operand, c.ref, 0))];
         if (n < 0) {
-            n = static_cast<std::int32_t>(components_.size());
-            components_.push_back({c.position});
+            n = static_cast<std::int32_t>(positions_.size());
+            positions_.push_back(c.position);
         }
         of_cap_.push_back(n);
     }
+    signs_.assign(positions_.size(), 0);
     of_side_face_.clear();
     edges_.clear();
     for (const PrismSideFace& w : facets.side_faces()) {

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/kernel/number/int128.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/parallel_sort.h>
 
 namespace trisect::detail {
 
@@ -115,35 +118,24 @@ int PrismCrossings::compare(const PrismCrossing& a, const PrismCrossing& b) cons
 }
 
 bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideFace> side_faces,
-                          EvaluateStats& stats) {
+                          EvaluateStats& stats, std::uint32_t threads) {
+    constexpr std::size_t least_searched = 512;
     side_faces_ = side_faces;
     found_.clear();
-    order_.resize(side_faces.size());
-    std::iota(order_.begin(), order_.end(), 0);
-    const auto side_face = [&](LeafIndex i) -> const PrismSideFace& {
-        return side_faces[as_index(i)];
-    };
-    std::sort(order_.begin(), order_.end(), [&](LeafIndex a, LeafIndex b) {
-        return side_face(a).from.u != side_face(b).from.u
-                   ? side_face(a).from.u < side_face(b).from.u
-                   : a < b;
+    put_in_order(threads);
+    const ParallelParts of_order(order_.size(), threads, least_searched);
+    std::vector<Part> parts(of_order.count());
+    parts[0].found.swap(found_);  // its memory is used again
+    of_order.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        search(problem, stats, begin, end, parts[part]);
     });
+    found_.swap(parts[0].found);
     std::size_t looked_at = 0;
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-        check_budget(*problem.options, stats);
-        if (looked_at > most_per_side_face * order_.size()) return false;
-        const PrismSideFace& s = side_face(order_[i]);
-        const auto [low, high] = std::minmax(s.from.v, s.to.v);
-        for (std::size_t j = i + 1; j < order_.size(); ++j) {
-            const PrismSideFace& t = side_face(order_[j]);
-            if (t.from.u > s.to.u) break;
-            ++looked_at;
-            if (std::max(t.from.v, t.to.v) < low || std::min(t.from.v, t.to.v) > high ||
-                t.lo > s.hi || t.hi < s.lo)
-                continue;
-            ++stats.pairs_boxes;
-            if (!cross(order_[i], order_[j])) return false;
-        }
+    for (const Part& part : parts) {
+        looked_at += part.looked_at;
+        if (part.touches || looked_at > most_per_side_face * order_.size()) return false;
+        stats.pairs_boxes += part.pairs_boxes;
+        found_.insert(found_.end(), part.found.begin(), part.found.end());
     }
     stats.pairs_touching += found_.size() / 2;
     stats.pairs_cutting += found_.size() / 2;
@@ -158,6 +150,46 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideF
     return true;
 }
 
+void PrismCrossings::put_in_order(std::uint32_t threads) {
+    keys_.clear();
+    keys_.reserve(side_faces_.size());
+    for (std::size_t i = 0; i < side_faces_.size(); ++i)
+        keys_.emplace_back(side_faces_[i].from.u, static_cast<LeafIndex>(i));
+    sort_in_parts(keys_, threads);
+    order_.clear();
+    order_.reserve(keys_.size());
+    for (const auto& [u, i] : keys_) {
+        const PrismSideFace& w = side_faces_[as_index(i)];
+        const auto [low, high] = std::minmax(w.from.v, w.to.v);
+        order_.push_back({u, w.to.u, low, high, i});
+    }
+}
+
+// Of those [begin, end) of the order with those behind them.
+void PrismCrossings::search(const LeafProblem& problem, const EvaluateStats& before,
+                            std::size_t begin, std::size_t end, Part& part) const {
+    EvaluateStats stats = before;
+    for (std::size_t i = begin; i < end; ++i) {
+        check_budget(*problem.options, stats);
+        if (part.looked_at > most_per_side_face * order_.size()) return;
+        const Beside s = order_[i];
+        const PrismSideFace& w = side_faces_[as_index(s.side_face)];
+        for (std::size_t j = i + 1; j < order_.size(); ++j) {
+            const Beside& t = order_[j];
+            if (t.from_u > s.to_u) break;
+            ++part.looked_at;
+            if (t.high_v < s.low_v || t.low_v > s.high_v) continue;
+            const PrismSideFace& other = side_faces_[as_index(t.side_face)];
+            if (other.lo > w.hi || other.hi < w.lo) continue;
+            ++part.pairs_boxes;
+            if (cross(s.side_face, t.side_face, part.found)) continue;
+            part.touches = true;
+            return;
+        }
+        stats.pairs_boxes = before.pairs_boxes + part.pairs_boxes;
+    }
+}
+
 bool PrismCrossings::any_coincide() const {
     return std::ranges::adjacent_find(found_, [&](const PrismCrossing& a, const PrismCrossing& b) {
                return a.on == b.on && compare(a, b) == 0;
@@ -165,7 +197,7 @@ bool PrismCrossings::any_coincide() const {
 }
 
 // Notes where two side faces cross, if they do; false when they touch otherwise than as neighbours.
-bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
+bool PrismCrossings::cross(LeafIndex s, LeafIndex t, std::vector<PrismCrossing>& found) const {
     const PrismSideFace& a = side_faces_[as_index(s)];
     const PrismSideFace& b = side_faces_[as_index(t)];
     const EndSides of_b(b, a);
@@ -175,8 +207,8 @@ bool PrismCrossings::cross(LeafIndex s, LeafIndex t) {
     if (of_a.touch() || of_b.touch())
         return are_neighbours(a, b, of_b.from_sign == 0 && of_b.to_sign == 0);
     if (a.operand == b.operand) return false;
-    found_.push_back({s, t, place(a, b, of_a)});
-    found_.push_back({t, s, place(b, a, of_b)});
+    found.push_back({s, t, place(a, b, of_a)});
+    found.push_back({t, s, place(b, a, of_b)});
     return true;
 }
 

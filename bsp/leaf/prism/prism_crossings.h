@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/cells/solid_state.h>
@@ -33,9 +35,10 @@ public:
 
     /// False when side faces touch or overlap without crossing each other, and where too many lie
     /// side by side. `side_faces` must outlive later queries. Time O(n log n + n m) for n side
-    /// faces with m others beside each.
+    /// faces with m others beside each. By several threads where there are many: the same is found
+    /// for any number.
     [[nodiscard]] bool find(const LeafProblem& problem, std::span<const PrismSideFace> side_faces,
-                            EvaluateStats& stats);
+                            EvaluateStats& stats, std::uint32_t threads = 1);
     /// In their order along the side face.
     [[nodiscard]] std::span<const PrismCrossing> of(LeafIndex side_face) const {
         const std::size_t i = as_index(side_face);
@@ -47,10 +50,29 @@ public:
     [[nodiscard]] int compare(const PrismCrossing& a, const PrismCrossing& b) const;
 
 private:
-    [[nodiscard]] bool cross(LeafIndex s, LeafIndex t);
+    // A side face in the order of its `from`: what is looked at of those that are not near.
+    struct Beside {
+        Coordinate from_u;
+        Coordinate to_u;
+        Coordinate low_v;
+        Coordinate high_v;
+        LeafIndex side_face = 0;
+    };
+    // What a part of the search has found.
+    struct Part {
+        std::vector<PrismCrossing> found;
+        std::uint64_t pairs_boxes = 0;
+        std::size_t looked_at = 0;
+        bool touches = false;
+    };
+    void put_in_order(std::uint32_t threads);
+    void search(const LeafProblem& problem, const EvaluateStats& before, std::size_t begin,
+                std::size_t end, Part& part) const;
+    [[nodiscard]] bool cross(LeafIndex s, LeafIndex t, std::vector<PrismCrossing>& found) const;
 
     std::span<const PrismSideFace> side_faces_;
-    std::vector<LeafIndex> order_;
+    std::vector<std::pair<Coordinate, LeafIndex>> keys_;
+    std::vector<Beside> order_;
     std::vector<PrismCrossing> found_;  // by side face, and in their order there
     std::vector<std::size_t> first_;    // by side face
 };
