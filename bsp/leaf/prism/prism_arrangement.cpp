@@ -40,6 +40,7 @@
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/parallel_sort.h>
 #include <trisect/kernel/support/ready_memory.h>
+#include <trisect/kernel/support/task_group.h>
 
 namespace trisect::detail {
 
@@ -48,19 +49,39 @@ std::optional<LeafResult> PrismArrangement::try_to_arrange(const LeafProblem& pr
     EvaluateStats& stats = findings.stats;
     threads_ = problem.options->threads;
     outlines_ = {};
-    if (!facets_.list(problem, true) ||
-        !crossings_.find(problem, facets_.side_faces(), stats, threads_))
+    if (!facets_.list(problem, true, threads_) || !find_crossings_and_chains(problem, stats))
         return std::nullopt;
     if (may_have_straight_crossings(problem) && crossings_.any_coincide()) return std::nullopt;
-    if (!has_few_layers() || !components_.list(problem, facets_)) return std::nullopt;
+    if (!has_few_layers()) return std::nullopt;
     formula_.start(problem);
-    find_chains();
     if (!walk_chains(problem, stats)) return std::nullopt;
     LeafOutlines out;
     out.whole = list_whole();
     put_outlines_together();
     out.outlines = std::move(outlines_);
     return out;
+}
+
+// Neither needs the other.
+bool PrismArrangement::find_crossings_and_chains(const LeafProblem& problem, EvaluateStats& stats) {
+    bool has_chains = false;
+    bool has_crossings = false;
+    const auto chains = [&] {
+        has_chains = components_.list(problem, facets_);
+        if (!has_chains) return;
+        find_chains();
+        find_sweep();
+    };
+    const auto crossings = [&] {
+        has_crossings = crossings_.find(problem, facets_.side_faces(), stats, threads_);
+    };
+    if (threads_ == 1) {
+        crossings();
+        if (has_crossings) chains();
+    } else {
+        both_at_once(chains, crossings);
+    }
+    return has_chains && has_crossings;
 }
 
 // Every side face is looked at in each of its layers, and every crossing turns over as many.
@@ -106,83 +127,87 @@ void PrismArrangement::find_chains() {
     chain_begin_.push_back(steps_.size());
 }
 
-// The lower and upper ends of side faces, and chains in the order of the lines that are looked
-// along.
-struct PrismArrangement::Sweep {
-    std::vector<std::pair<Coordinate, LeafIndex>> side_faces;  // by their lower ends
-    std::vector<std::pair<Coordinate, std::size_t>> chains;
-    std::vector<std::size_t> steps_before;  // each of the chains
-};
-
-auto PrismArrangement::order_of_sweep() const -> Sweep {
-    Sweep out;
-    out.side_faces.reserve(facets_.side_faces().size());
+void PrismArrangement::find_sweep() {
+    sweep_.side_faces.clear();
+    sweep_.side_faces.reserve(facets_.side_faces().size());
     for (LeafIndex i = 0; as_index(i) < facets_.side_faces().size(); ++i) {
-        const auto [low, high] = std::minmax(names_.side_face(i).from.v, names_.side_face(i).to.v);
-        if (low != high) out.side_faces.emplace_back(low, i);
+        const PrismSideFace& w = names_.side_face(i);
+        const auto [low, high] = std::minmax(w.from.v, w.to.v);
+        if (low != high) sweep_.side_faces.push_back({low, high, i});
     }
-    sort_in_parts(out.side_faces, threads_);
+    sort_in_parts(sweep_.side_faces, threads_);
+    sweep_.chains.clear();
     for (std::size_t c = 0; c + 1 < chain_begin_.size(); ++c)
-        out.chains.emplace_back(start_of(c).v, c);
-    sort_in_parts(out.chains, threads_);
+        sweep_.chains.emplace_back(start_of(c).v, c);
+    std::ranges::sort(sweep_.chains);
+    sweep_.steps_before.clear();
     std::size_t steps = 0;
-    for (const auto& [v, chain] : out.chains) {
-        out.steps_before.push_back(steps);
+    for (const auto& [v, chain] : sweep_.chains) {
+        sweep_.steps_before.push_back(steps);
         steps += chain_begin_[chain + 1] - chain_begin_[chain];
     }
-    return out;
 }
 
 // False where too many side faces lie across the lines of chains, as in PrismCrossings.
 bool PrismArrangement::walk_chains(const LeafProblem& problem, EvaluateStats& stats) {
     // A part begins with a look at all side faces, and has the formula to itself.
-    const std::size_t least_steps = 4096 + 64 * problem.operands.size();
-    const Sweep sweep = order_of_sweep();
+    const std::size_t slots = threads_ != 0 ? threads_ : threads_here();
+    const std::size_t least_steps =
+        std::max(4096 + 64 * problem.operands.size(), steps_.size() / (4 * slots));
     const ParallelParts parts(steps_.size(), threads_, least_steps);
-    walks_.clear();
-    for (std::size_t part = 0; part < parts.count(); ++part)
-        walks_.emplace_back(facets_, crossings_, components_, formula_);
+    found_.clear();
+    found_.resize(parts.count());
     std::vector<std::size_t> looked_at(parts.count());
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         const auto chain_at = [&](std::size_t step) {
-            return static_cast<std::size_t>(std::ranges::lower_bound(sweep.steps_before, step) -
-                                            sweep.steps_before.begin());
+            return static_cast<std::size_t>(std::ranges::lower_bound(sweep_.steps_before, step) -
+                                            sweep_.steps_before.begin());
         };
-        looked_at[part] = walk_part(problem, sweep, {chain_at(begin), chain_at(end)}, walks_[part]);
+        PrismWalk walk(facets_, crossings_, components_, formula_);
+        looked_at[part] = walk_part(problem, {chain_at(begin), chain_at(end)}, walk);
+        found_[part] = std::move(walk.found());
     });
-    stats.traces += sweep.chains.size();
-    return std::accumulate(looked_at.begin(), looked_at.end(), std::size_t{0}) <=
-           most_looked_at(sweep);
+    stats.traces += sweep_.chains.size();
+    return std::accumulate(looked_at.begin(), looked_at.end(), std::size_t{0}) <= most_looked_at();
 }
 
-std::size_t PrismArrangement::most_looked_at(const Sweep& sweep) {
-    return PrismCrossings::most_per_side_face * sweep.side_faces.size();
+std::size_t PrismArrangement::most_looked_at() const {
+    return PrismCrossings::most_per_side_face * sweep_.side_faces.size();
 }
 
 // Some chains of the order. Returns how many side faces it looked at.
-std::size_t PrismArrangement::walk_part(const LeafProblem& problem, const Sweep& sweep,
+std::size_t PrismArrangement::walk_part(const LeafProblem& problem,
                                         const std::array<std::size_t, 2>& chains,
                                         PrismWalk& walk) const {
-    const auto high = [&](LeafIndex i) {
-        return std::max(names_.side_face(i).from.v, names_.side_face(i).to.v);
+    // Of side faces across the line of the start.
+    struct Across {
+        Coordinate high;
+        Coordinate from_u;
+        Coordinate to_u;
+        LeafIndex side_face = 0;
     };
-    std::vector<std::pair<Coordinate, LeafIndex>> across;  // the line of the start: upper ends
+    std::vector<Across> across;
     std::vector<LeafIndex> crossed;
-    auto next = sweep.side_faces.begin();
+    auto next = sweep_.side_faces.begin();
     std::size_t looked_at = 0;
     for (std::size_t c = chains[0]; c < chains[1]; ++c) {
-        const auto [v, chain] = sweep.chains[c];
+        const auto [v, chain] = sweep_.chains[c];
         check_flags(problem.options->scope);
-        if (looked_at > most_looked_at(sweep)) break;
-        for (; next != sweep.side_faces.end() && next->first <= v; ++next)
-            if (const Coordinate end = high(next->second); end > v)
-                across.emplace_back(end, next->second);
-        std::erase_if(across, [v = v](const auto& w) { return w.first <= v; });
+        if (looked_at > most_looked_at()) break;
+        for (; next != sweep_.side_faces.end() && next->low <= v; ++next) {
+            if (next->high <= v) continue;
+            const PrismSideFace& w = names_.side_face(next->side_face);
+            across.push_back({next->high, w.from.u, w.to.u, next->side_face});
+        }
+        std::erase_if(across, [v = v](const Across& w) { return w.high <= v; });
         crossed.clear();
         looked_at += across.size();
-        for (const auto& w : across)
-            if (crosses_way(names_.side_face(w.second), start_of(chain)))
-                crossed.push_back(w.second);
+        const FlatCorner& start = start_of(chain);
+        // The way goes towards greater coordinates.
+        for (const Across& w : across)
+            if (w.to_u >= start.u &&
+                (w.from_u > start.u || crosses_way(names_.side_face(w.side_face), start)))
+                crossed.push_back(w.side_face);
         const std::size_t begin = chain_begin_[chain];
         walk.run(std::span(steps_).subspan(begin, chain_begin_[chain + 1] - begin), crossed);
     }
@@ -203,15 +228,15 @@ std::vector<PolygonRef> PrismArrangement::list_whole() {
     });
     std::vector<std::size_t> first_of_walk;
     std::size_t count = 0;
-    for (PrismWalk& walk : walks_)
-        first_of_walk.push_back(std::exchange(count, count + walk.found().whole.size()));
+    for (const PrismWalk::Found& found : found_)
+        first_of_walk.push_back(std::exchange(count, count + found.whole.size()));
     first[0] = count;
     std::partial_sum(first.begin(), first.end(), first.begin());
     std::vector<PolygonRef> out;
     resize_ready(out, first.back());
     for_each_walk([&](std::size_t i) {
-        std::ranges::copy(walks_[i].found().whole, out.begin() + first_of_walk[i]);
-        walks_[i].found().whole = {};
+        std::ranges::copy(found_[i].whole, out.begin() + first_of_walk[i]);
+        found_[i].whole = {};
     });
     of_caps.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         std::size_t n = first[part];
@@ -285,11 +310,11 @@ struct PrismArrangement::WalkEdges {
 
 void PrismArrangement::put_outlines_together() {
     look_at_cap_planes();
-    std::vector<WalkEdges> places(walks_.size());
-    for_each_walk([&](std::size_t i) { count_cap_edges(walks_[i].found(), places[i]); });
+    std::vector<WalkEdges> places(found_.size());
+    for_each_walk([&](std::size_t i) { count_cap_edges(found_[i], places[i]); });
     std::size_t edges = 0;
-    for (std::size_t i = 0; i < walks_.size(); ++i) {
-        const NamedOutlines& own = walks_[i].found().outlines;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        const NamedOutlines& own = found_[i].outlines;
         places[i].first = std::exchange(edges, edges + own.edges.size());
         places[i].first_face = outlines_.faces.size();
         outlines_.faces.insert(outlines_.faces.end(), own.faces.begin(), own.faces.end());
@@ -303,8 +328,8 @@ void PrismArrangement::put_outlines_together() {
     }
     resize_ready(outlines_.edges, edges);
     for_each_walk([&](std::size_t i) {
-        put_edges(walks_[i].found(), places[i]);
-        walks_[i].found() = {};
+        put_edges(found_[i], places[i]);
+        found_[i] = {};
     });
     name_cap_planes();
 }
@@ -373,7 +398,7 @@ void PrismArrangement::name_cap_planes() {
 
 template <class Work>
 void PrismArrangement::for_each_walk(const Work& work) {
-    ParallelParts(walks_.size(), walks_.size() == 1 ? 1 : threads_, 1)
+    ParallelParts(found_.size(), found_.size() == 1 ? 1 : threads_, 1)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) work(i);
         });

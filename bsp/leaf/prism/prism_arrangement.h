@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <trisect/bsp/cells/leaf_problem.h>
@@ -38,7 +39,20 @@ class PrismArrangement final : public LeafArrangement {
 private:
     [[nodiscard]] std::optional<LeafResult> try_to_arrange(const LeafProblem& problem,
                                                            LeafFindings& findings) override;
-    struct Sweep;
+    /// The order in which chains are walked along: by the lines of their starts.
+    struct Sweep {
+        struct SideFace {
+            Coordinate low;
+            Coordinate high;
+            LeafIndex side_face = 0;
+            friend bool operator<(const SideFace& a, const SideFace& b) {
+                return a.low != b.low ? a.low < b.low : a.side_face < b.side_face;
+            }
+        };
+        std::vector<SideFace> side_faces;  // by their lower ends
+        std::vector<std::pair<Coordinate, std::size_t>> chains;
+        std::vector<std::size_t> steps_before;  // each of the chains
+    };
     struct WalkEdges;
     /// The caps in one plane.
     struct CapPlane {
@@ -51,15 +65,16 @@ private:
         std::uint8_t signs = 0;
         void note(Sign sign);  // by several threads
     };
+    [[nodiscard]] bool find_crossings_and_chains(const LeafProblem& problem, EvaluateStats& stats);
     [[nodiscard]] bool has_few_layers() const;
     void find_chains();
     [[nodiscard]] const FlatCorner& start_of(std::size_t chain) const {
         return names_.side_face(steps_[chain_begin_[chain]].side_face).from;
     }
-    [[nodiscard]] Sweep order_of_sweep() const;
+    void find_sweep();
     [[nodiscard]] bool walk_chains(const LeafProblem& problem, EvaluateStats& stats);
-    [[nodiscard]] static std::size_t most_looked_at(const Sweep& sweep);
-    [[nodiscard]] std::size_t walk_part(const LeafProblem& problem, const Sweep& sweep,
+    [[nodiscard]] std::size_t most_looked_at() const;
+    [[nodiscard]] std::size_t walk_part(const LeafProblem& problem,
                                         const std::array<std::size_t, 2>& chains,
                                         PrismWalk& walk) const;
     [[nodiscard]] std::vector<PolygonRef> list_whole();
@@ -85,7 +100,8 @@ private:
     LeafFormula formula_;
     PoolVector<PrismWalk::Step> steps_;  // chain by chain
     std::vector<std::size_t> chain_begin_;
-    std::vector<PrismWalk> walks_;
+    Sweep sweep_;
+    std::vector<PrismWalk::Found> found_;      // by part of the sweep
     std::vector<CapPlane> cap_planes_;         // by position
     std::vector<std::int32_t> faces_of_caps_;  // of the outlines, by CapEdge::face; -1: none
     NamedOutlines outlines_;

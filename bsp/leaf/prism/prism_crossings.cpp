@@ -151,43 +151,59 @@ bool PrismCrossings::find(const LeafProblem& problem, std::span<const PrismSideF
 }
 
 void PrismCrossings::put_in_order(std::uint32_t threads) {
-    keys_.clear();
-    keys_.reserve(side_faces_.size());
-    for (std::size_t i = 0; i < side_faces_.size(); ++i)
-        keys_.emplace_back(side_faces_[i].from.u, static_cast<LeafIndex>(i));
-    sort_in_parts(keys_, threads);
     order_.clear();
-    order_.reserve(keys_.size());
-    for (const auto& [u, i] : keys_) {
-        const PrismSideFace& w = side_faces_[as_index(i)];
-        const auto [low, high] = std::minmax(w.from.v, w.to.v);
-        order_.push_back({u, w.to.u, low, high, i});
+    order_.reserve(side_faces_.size());
+    for (std::size_t i = 0; i < side_faces_.size(); ++i)
+        order_.emplace_back(side_faces_[i].from.u, static_cast<LeafIndex>(i));
+    sort_in_parts(order_, threads);
+    low_v_.resize(order_.size());
+    high_v_.resize(order_.size());
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+        const PrismSideFace& w = side_faces_[as_index(order_[i].second)];
+        low_v_[i] = std::min(w.from.v, w.to.v).to_double();
+        high_v_[i] = std::max(w.from.v, w.to.v).to_double();
     }
 }
 
-// Of those [begin, end) of the order with those behind them.
+// Of those [begin, end) of the order with those behind them, which are looked at in blocks.
 void PrismCrossings::search(const LeafProblem& problem, const EvaluateStats& before,
                             std::size_t begin, std::size_t end, Part& part) const {
+    constexpr std::size_t block = 16;
     EvaluateStats stats = before;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end && !part.touches; ++i) {
         check_budget(*problem.options, stats);
         if (part.looked_at > most_per_side_face * order_.size()) return;
-        const Beside s = order_[i];
-        const PrismSideFace& w = side_faces_[as_index(s.side_face)];
-        for (std::size_t j = i + 1; j < order_.size(); ++j) {
-            const Beside& t = order_[j];
-            if (t.from_u > s.to_u) break;
-            ++part.looked_at;
-            if (t.high_v < s.low_v || t.low_v > s.high_v) continue;
-            const PrismSideFace& other = side_faces_[as_index(t.side_face)];
-            if (other.lo > w.hi || other.hi < w.lo) continue;
-            ++part.pairs_boxes;
-            if (cross(s.side_face, t.side_face, part.found)) continue;
-            part.touches = true;
-            return;
+        const PrismSideFace& w = side_faces_[as_index(order_[i].second)];
+        const double low = low_v_[i];
+        const double high = high_v_[i];
+        // The first that begins beyond it.
+        const auto beyond = static_cast<std::size_t>(
+            std::partition_point(order_.begin() + static_cast<std::ptrdiff_t>(i), order_.end(),
+                                 [&](const auto& o) { return o.first <= w.to.u; }) -
+            order_.begin());
+        part.looked_at += beyond - (i + 1);
+        const auto is_beside = [&](std::size_t j) {
+            return int{high_v_[j] >= low} & int{low_v_[j] <= high};
+        };
+        for (std::size_t j = i + 1; j < beyond && !part.touches;) {
+            const std::size_t next = std::min(j + block, beyond);
+            int any = 0;
+            for (std::size_t k = j; k < next; ++k) any |= is_beside(k);
+            for (; any != 0 && j < next && !part.touches; ++j)
+                if (is_beside(j) != 0) compare_at(i, j, part);
+            j = next;
         }
         stats.pairs_boxes = before.pairs_boxes + part.pairs_boxes;
     }
+}
+
+void PrismCrossings::compare_at(std::size_t i, std::size_t j, Part& part) const {
+    const auto [s, t] = std::pair(order_[i].second, order_[j].second);
+    const PrismSideFace& a = side_faces_[as_index(s)];
+    const PrismSideFace& b = side_faces_[as_index(t)];
+    if (b.lo > a.hi || b.hi < a.lo) return;
+    ++part.pairs_boxes;
+    part.touches = !cross(s, t, part.found);
 }
 
 bool PrismCrossings::any_coincide() const {

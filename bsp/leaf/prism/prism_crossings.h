@@ -50,14 +50,6 @@ public:
     [[nodiscard]] int compare(const PrismCrossing& a, const PrismCrossing& b) const;
 
 private:
-    // A side face in the order of its `from`: what is looked at of those that are not near.
-    struct Beside {
-        Coordinate from_u;
-        Coordinate to_u;
-        Coordinate low_v;
-        Coordinate high_v;
-        LeafIndex side_face = 0;
-    };
     // What a part of the search has found.
     struct Part {
         std::vector<PrismCrossing> found;
@@ -68,11 +60,13 @@ private:
     void put_in_order(std::uint32_t threads);
     void search(const LeafProblem& problem, const EvaluateStats& before, std::size_t begin,
                 std::size_t end, Part& part) const;
+    void compare_at(std::size_t i, std::size_t j, Part& part) const;
     [[nodiscard]] bool cross(LeafIndex s, LeafIndex t, std::vector<PrismCrossing>& found) const;
 
     std::span<const PrismSideFace> side_faces_;
-    std::vector<std::pair<Coordinate, LeafIndex>> keys_;
-    std::vector<Beside> order_;
+    std::vector<std::pair<Coordinate, LeafIndex>> order_;  // by `from`
+    std::vector<double> low_v_;                            // in that order
+    std::vector<double> high_v_;
     std::vector<PrismCrossing> found_;  // by side face, and in their order there
     std::vector<std::size_t> first_;    // by side face
 };

@@ -3,12 +3,17 @@
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 
 #include <algorithm>
+#include <atomic>
+#include <iterator>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include <trisect/bsp/leaf/prism/crossed_ways.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/task_group.h>
 
 namespace trisect::detail {
 
@@ -21,6 +26,10 @@ auto side_face_key(const PrismSideFace& w) {
 bool same_rectangle(const PrismSideFace& a, const PrismSideFace& b) {
     return a.operand == b.operand && a.from == b.from && a.to == b.to && a.lo == b.lo &&
            a.hi == b.hi;
+}
+
+bool is_whole_facet(const PolygonRef& ref) {
+    return ref.fragment == nullptr && !ref.source->is_half_space();
 }
 
 bool is_half(const PrismSideFace& w) {
@@ -74,7 +83,8 @@ bool PrismFacets::may_be_of_wall(const PolygonRef& polygon) {
     return false;
 }
 
-bool PrismFacets::list(const LeafProblem& problem, bool takes_walls) {
+bool PrismFacets::list(const LeafProblem& problem, bool takes_walls, std::uint32_t threads) {
+    threads_ = threads;
     const auto may_be = takes_walls ? &may_be_of_wall : &may_be_of_prism;
     for (const LeafOperand& o : problem.operands)
         if (!o.embedded ||
@@ -123,38 +133,62 @@ bool PrismFacets::list_along(const LeafProblem& problem, std::size_t axis, bool 
 
 bool PrismFacets::list_operand(const LeafProblem& problem, std::size_t operand, bool takes_walls) {
     const LeafOperand& o = problem.operands[operand];
-    const auto number = static_cast<LeafIndex>(operand);
     const std::size_t first = side_faces_.size();
     const std::size_t first_cap = caps_.size();
-    bool has_halves = true;
-    std::size_t loose = 0;
-    for (const PolygonRef& ref : o.polygons) {
-        if (ref.fragment != nullptr || ref.source->is_half_space() ||
-            !problem.cell.contains(ref.box()))
-            return false;
-        const FlatFacet flat(ref, axis_);
-        if (flat.is_cap()) {
-            caps_.push_back({number, ref, 0});
-        } else if (has_halves) {
-            has_halves = add_half(ref, flat, number, o.flipped);
-            if (has_halves) ++loose;
-            // Mostly both halves are listed one after the other.
-            if (has_halves && side_faces_.size() > first + 1 &&
-                do_fit(side_faces_.end()[-2], side_faces_.back())) {
-                join(side_faces_.end()[-2], side_faces_.back());
-                side_faces_.pop_back();
-                loose -= 2;
-            }
-        }
-        if (!has_halves && !takes_walls) return false;
+    constexpr std::size_t many = 32768;
+    Halves halves;
+    bool all_in_cell = true;
+    const auto list_halves_of = [&] { halves = list_halves(problem, operand); };
+    const auto list_caps_of = [&] { all_in_cell = list_caps(problem, operand); };
+    if (threads_ == 1 || o.polygons.size() < many) {
+        list_halves_of();
+        if (!halves.fit && !takes_walls) return false;
+        list_caps_of();
+    } else {
+        both_at_once(list_caps_of, list_halves_of);
     }
+    if (!all_in_cell || !halves.all_in_cell) return false;
     // Copies of a rectangle touch, which crossings show as well.
-    has_halves = has_halves && ((takes_walls && loose == 0) || join_halves(first));
+    const bool has_halves =
+        halves.fit && ((takes_walls && halves.loose == 0) || join_halves(first));
     if (!takes_walls) return has_halves;
     if (has_halves && end_at_caps(first, first_cap)) return true;
     side_faces_.resize(first);
-    return walls_.add(o.polygons, number, o.flipped, axis_, side_faces_) &&
+    return walls_.add(o.polygons, static_cast<LeafIndex>(operand), o.flipped, axis_, side_faces_) &&
            end_at_caps(first, first_cap);
+}
+
+bool PrismFacets::list_caps(const LeafProblem& problem, std::size_t operand) {
+    for (const PolygonRef& ref : problem.operands[operand].polygons) {
+        if (!is_whole_facet(ref)) return false;
+        if (!FlatFacet(ref, axis_).is_cap()) continue;
+        if (!problem.cell.contains(ref.box())) return false;
+        caps_.push_back({static_cast<LeafIndex>(operand), ref, 0});
+    }
+    return true;
+}
+
+auto PrismFacets::list_halves(const LeafProblem& problem, std::size_t operand) -> Halves {
+    const LeafOperand& o = problem.operands[operand];
+    const std::size_t first = side_faces_.size();
+    Halves out;
+    for (const PolygonRef& ref : o.polygons) {
+        if (!is_whole_facet(ref)) return {false, false, 0};
+        const FlatFacet flat(ref, axis_);
+        if (flat.is_cap()) continue;
+        if (!problem.cell.contains(ref.box())) return {false, false, 0};
+        if (!out.fit) continue;
+        out.fit = add_half(ref, flat, static_cast<LeafIndex>(operand), o.flipped);
+        if (!out.fit) continue;
+        ++out.loose;
+        // Mostly both halves are listed one after the other.
+        if (side_faces_.size() > first + 1 && do_fit(side_faces_.end()[-2], side_faces_.back())) {
+            join(side_faces_.end()[-2], side_faces_.back());
+            side_faces_.pop_back();
+            out.loose -= 2;
+        }
+    }
+    return out;
 }
 
 bool PrismFacets::is_grid() const {
@@ -215,16 +249,24 @@ bool PrismFacets::join_halves(std::size_t first) {
     return true;
 }
 
+// Of each height one, in order. Facets of the two ends of a prism mostly alternate.
+std::vector<Coordinate> PrismFacets::heights_of(std::span<const PrismCap> caps) const {
+    std::vector<Coordinate> out;
+    constexpr std::ptrdiff_t few = 4;
+    for (const PrismCap& c : caps) {
+        const Coordinate h = height_of(c);
+        const auto last = out.end() - std::min(few, std::ssize(out));
+        if (std::find(last, out.end(), h) == out.end()) out.push_back(h);
+    }
+    std::ranges::sort(out);
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
 // The last side faces that are listed, at caps of their operand: a grid is made of rectangles as
 // well.
 bool PrismFacets::end_at_caps(std::size_t first, std::size_t first_cap) const {
-    std::vector<Coordinate> heights;
-    for (const PrismCap& c : std::span(caps_).subspan(first_cap)) {
-        const Coordinate h = coordinate(c.ref.source->corner(c.ref.facet, 0), axis_);
-        if (heights.empty() || heights.back() != h) heights.push_back(h);
-    }
-    std::ranges::sort(heights);
-    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+    const std::vector<Coordinate> heights = heights_of(std::span(caps_).subspan(first_cap));
     return std::ranges::all_of(std::span(side_faces_).subspan(first), [&](const PrismSideFace& w) {
         return std::ranges::binary_search(heights, w.lo) &&
                std::ranges::binary_search(heights, w.hi);
@@ -232,43 +274,56 @@ bool PrismFacets::end_at_caps(std::size_t first, std::size_t first_cap) const {
 }
 
 bool PrismFacets::find_layers() {
-    const auto height = [&](const PolygonRef& ref) {
-        return coordinate(ref.source->corner(ref.facet, 0), axis_);
-    };
-    positions_.clear();
-    for (const PrismCap& c : caps_) {
-        const Coordinate h = height(c.ref);
-        if (positions_.empty() || positions_.back() != h) positions_.push_back(h);
-    }
-    std::ranges::sort(positions_);
-    positions_.erase(std::unique(positions_.begin(), positions_.end()), positions_.end());
+    constexpr std::size_t least_placed = 4096;
+    positions_ = heights_of(caps_);
     const auto index = [&](Coordinate p) {
         return static_cast<std::size_t>(std::ranges::lower_bound(positions_, p) -
                                         positions_.begin());
     };
-    for (PrismSideFace& w : side_faces_) {
-        w.first_layer = index(w.lo) + 1;
-        w.end_layer = index(w.hi) + 1;
-        // Ends where it meets no cap.
-        if (w.end_layer > positions_.size() || positions_[w.first_layer - 1] != w.lo ||
-            positions_[w.end_layer - 1] != w.hi)
-            return false;
-    }
+    std::atomic<bool> ends = true;
+    ParallelParts(side_faces_.size(), threads_, least_placed)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (PrismSideFace& w : std::span(side_faces_).subspan(begin, end - begin)) {
+                w.first_layer = index(w.lo) + 1;
+                w.end_layer = index(w.hi) + 1;
+                // Ends where it meets no cap.
+                if (w.end_layer > positions_.size() || positions_[w.first_layer - 1] != w.lo ||
+                    positions_[w.end_layer - 1] != w.hi)
+                    ends.store(false, std::memory_order_relaxed);
+            }
+        });
+    if (!ends) return false;
+    ParallelParts(caps_.size(), threads_, least_placed)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (PrismCap& c : std::span(caps_).subspan(begin, end - begin))
+                c.position = index(height_of(c));
+        });
     named_.assign(positions_.size(), PolygonRef{});
-    for (PrismCap& c : caps_) {
-        c.position = index(height(c.ref));
-        if (named_[c.position].source == nullptr) named_[c.position] = c.ref;
+    std::size_t unnamed = named_.size();
+    for (auto c = caps_.begin(); unnamed != 0; ++c) {
+        if (named_[c->position].source != nullptr) continue;
+        named_[c->position] = c->ref;
+        --unnamed;
     }
+    sort_caps();
+    return true;
+}
+
+// Mostly the order of each operand is that of its facets, so they are put position by position.
+void PrismFacets::sort_caps() {
     const auto key = [](const PrismCap& c) {
         return std::tuple(c.position, c.operand, c.ref.source->serial(), c.ref.facet);
     };
-    // Mostly the order of each operand is that of its facets.
-    std::stable_sort(caps_.begin(), caps_.end(),
-                     [](const PrismCap& a, const PrismCap& b) { return a.position < b.position; });
     const auto is_before = [&](const PrismCap& a, const PrismCap& b) { return key(a) < key(b); };
+    if (std::is_sorted(caps_.begin(), caps_.end(), is_before)) return;
+    std::vector<std::size_t> next(positions_.size() + 1);
+    for (const PrismCap& c : caps_) ++next[c.position + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    PoolVector<PrismCap> sorted(caps_.size());
+    for (const PrismCap& c : caps_) sorted[next[c.position]++] = c;
+    caps_.swap(sorted);
     if (!std::is_sorted(caps_.begin(), caps_.end(), is_before))
         std::sort(caps_.begin(), caps_.end(), is_before);
-    return true;
 }
 
 // From the reference straight to where nothing is, within its layer.

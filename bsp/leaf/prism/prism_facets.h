@@ -35,8 +35,9 @@ public:
     /// False when some polygon is neither perpendicular to the axis nor one of the two halves of a
     /// rectangle along it, is cut, or is not all within the cell; or when an operand may meet
     /// itself. With `takes_walls` rectangles may have any facets. \pre then each operand is all
-    /// facets of one source.
-    [[nodiscard]] bool list(const LeafProblem& problem, bool takes_walls = false);
+    /// facets of one source. By several threads where there are many; the outcome is the same.
+    [[nodiscard]] bool list(const LeafProblem& problem, bool takes_walls = false,
+                            std::uint32_t threads = 1);
     /// False for polygons that are of no prism along any axis, or of a wall of other facets than
     /// halves.
     [[nodiscard]] static bool may_be_of_prism(const PolygonRef& polygon);
@@ -70,14 +71,28 @@ private:
     [[nodiscard]] bool list_along(const LeafProblem& problem, std::size_t axis, bool takes_walls);
     [[nodiscard]] bool list_operand(const LeafProblem& problem, std::size_t operand,
                                     bool takes_walls);
+    [[nodiscard]] bool list_caps(const LeafProblem& problem, std::size_t operand);
+    // Of the halves of an operand's side faces: false where a facet is of none.
+    struct Halves {
+        bool all_in_cell = true;
+        bool fit = true;
+        std::size_t loose = 0;  // that were listed without another one
+    };
+    [[nodiscard]] Halves list_halves(const LeafProblem& problem, std::size_t operand);
     [[nodiscard]] bool add_half(const PolygonRef& ref, const FlatFacet& flat, LeafIndex operand,
                                 bool flipped);
     [[nodiscard]] bool is_grid() const;
     [[nodiscard]] bool join_halves(std::size_t first);
     [[nodiscard]] bool end_at_caps(std::size_t first, std::size_t first_cap) const;
     [[nodiscard]] bool find_layers();
+    void sort_caps();
+    [[nodiscard]] Coordinate height_of(const PrismCap& c) const {
+        return coordinate(c.ref.source->corner(c.ref.facet, 0), axis_);
+    }
+    [[nodiscard]] std::vector<Coordinate> heights_of(std::span<const PrismCap> caps) const;
     void find_outside(const LeafProblem& problem);
 
+    std::uint32_t threads_ = 1;
     std::size_t axis_ = 0;
     PoolVector<PrismSideFace> side_faces_;
     PrismWalls walls_;
