@@ -73,10 +73,18 @@ public:
 
     /// The facets that pass through; nothing where a corner is on a plane.
     [[nodiscard]] std::optional<std::vector<std::uint32_t>> run() {
+        // Both loops in one go: to wake other threads takes as long as either.
+        const bool few = source_.mesh().triangles.size() < 2 * many_facets;
+        return on_threads(few ? 1 : options_.threads, [&](std::uint32_t n) { return run_on(n); });
+    }
+    [[nodiscard]] std::uint64_t memory() const { return memory_.peak(); }
+
+private:
+    [[nodiscard]] std::optional<std::vector<std::uint32_t>> run_on(std::uint32_t threads) {
         const LatticeMesh& mesh = source_.mesh();
         const auto of_sides = memory_.hold(mesh.points.size() * sizeof(Sides));
         sides_.resize(mesh.points.size());
-        const ParallelParts of_points(mesh.points.size(), options_.threads, many_facets);
+        const ParallelParts of_points(mesh.points.size(), threads, many_facets);
         std::vector<Sides> met(of_points.count());
         of_points.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -86,16 +94,14 @@ public:
         });
         if (std::ranges::any_of(met, [](Sides s) { return (s & on_a_plane) != 0; }))
             return std::nullopt;
-        const ParallelParts of_facets(mesh.triangles.size(), options_.threads, many_facets);
+        const ParallelParts of_facets(mesh.triangles.size(), threads, many_facets);
         parts_.resize(of_facets.count());
         of_facets.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             find_facets(parts_[part], begin, end);
         });
         return join();
     }
-    [[nodiscard]] std::uint64_t memory() const { return memory_.peak(); }
 
-private:
     // What some of the facets are, in their order.
     struct Part {
         std::vector<std::uint32_t> uncrossed;
