@@ -302,6 +302,7 @@ Scene group_scene(const std::vector<std::string>& words) {
     for (int i = 0; i < n; ++i) s.operands.push_back(member(words[1], shape, i, n, random, words));
     s.operations = {Operation::Union, Operation::Difference, Operation::Intersection,
                     Operation::ExclusiveOr};
+    s.is_one_exclusive_or = true;
     return s;
 }
 

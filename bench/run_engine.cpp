@@ -202,8 +202,8 @@ void Job::run_expression(Times& t) {
     t.import = import.milliseconds();
     const Stopwatch evaluate(options_.clock);
     const std::span<const Engine::Body> all(bodies);
-    body_ = engine_.evaluate(all.first(scene_.first_group), all.subspan(scene_.first_group),
-                             options_.operation);
+    const std::size_t first = scene_.first_group_in(options_.operation);
+    body_ = engine_.evaluate(all.first(first), all.subspan(first), options_.operation);
     t.evaluate = evaluate.milliseconds();
 }
 
@@ -390,7 +390,7 @@ void dump(const Scene& scene, Operation operation, const std::string& file) {
     std::ofstream out(file, std::ios::binary);
     out << json{{"scene", scene.name},
                 {"operation", bench::name_of(operation)},
-                {"first_group", scene.first_group},
+                {"first_group", scene.first_group_in(operation)},
                 {"steps", steps},
                 {"untimed", scene.untimed},
                 {"sizes", sizes}}

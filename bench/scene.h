@@ -42,6 +42,7 @@ struct Scene {
     std::string name;
     std::vector<trisect::PolygonMesh> operands;
     std::size_t first_group = 1;            ///< operands in the first group
+    bool is_one_exclusive_or = false;       ///< an exclusive or has no groups
     std::vector<Operation> operations;      ///< that make sense for it
     std::size_t steps = 0;                  ///< of a chain
     std::size_t untimed = 0;                ///< steps at its start that prepare and do not count
@@ -49,6 +50,10 @@ struct Scene {
     bool parts = false;                     ///< every step begins with the operand again
     std::function<Step(std::size_t)> step;  ///< by its number, from 0
     [[nodiscard]] bool is_chain() const { return steps != 0; }
+    [[nodiscard]] std::size_t first_group_in(Operation operation) const {
+        const bool is_one = is_one_exclusive_or && operation == Operation::ExclusiveOr;
+        return is_one ? operands.size() : first_group;
+    }
 };
 
 /// The scenes by name, WHAT:SIZE. All operands of a scene lie on one lattice, unless `decimal:` is
