@@ -26,8 +26,9 @@
 #include <trisect/bsp/flat/flat_mesh.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
-#include <trisect/kernel/support/large_pages.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/pool_allocator.h>
+#include <trisect/kernel/support/ready_memory.h>
 
 namespace trisect::detail {
 
@@ -42,12 +43,12 @@ using Triangle = std::array<std::uint32_t, 3>;
 constexpr std::size_t least_points = 16384;
 constexpr std::size_t least_group_count = 4096;
 
-// Nor are fewer vertices that cuts have made, or facets that were cut.
+// Nor are fewer vertices that cuts have made, or edges of facets that were cut.
 constexpr std::size_t least_made = 512;
-constexpr std::size_t least_cut = 256;
+constexpr std::size_t least_cut_edges = 1024;
 
 // By source: the numbers of its corners in the mesh.
-using CornerTables = std::vector<std::vector<std::uint32_t>>;
+using CornerTables = std::vector<PoolVector<std::uint32_t>>;
 
 // Marks the corners of the facets that pass through as in use. Several threads mark the same ones,
 // and look first, so that they need not wait for each other's caches.
@@ -95,9 +96,9 @@ public:
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         number_.assign(bench_.point_count(), no_number);
-        const std::vector<PointId> made = number_corners(edges);
+        const PoolVector<PointId> made = number_corners(edges);
         cut_facets(edges, made);
-        resize_on_threads(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size(), threads_);
+        resize_ready(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size());
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
         number_faces();
         return std::move(mesh_);
@@ -153,20 +154,23 @@ private:
 
     // The corners of the result's facets, source by source, in the order of their vertices. Returns
     // the vertices that are none.
-    std::vector<PointId> number_corners(std::span<const BoundaryEdge> edges) {
-        std::vector<PointId> made;
+    PoolVector<PointId> number_corners(std::span<const BoundaryEdge> edges) {
+        PoolVector<PointId> made;
+        PoolVector<PointId> corners;
         for (const BoundaryEdge& e : edges) {
             if (std::exchange(number_[as_index(e.from)], in_use) != no_number) continue;
             if (bench_.is_corner(e.from)) {
                 corner_of(e.from) = in_use;
+                corners.push_back(e.from);
             } else {
                 made.push_back(e.from);
             }
         }
+        const std::vector<EqualCorners::Pair> equal = replaced_corners();
         const auto used_in = [](std::span<const std::uint32_t> part) {
             return part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
         };
-        std::vector<std::vector<std::size_t>> counts;  // of every part of a table
+        std::vector<PoolVector<std::size_t>> counts;  // of every part of a table
         std::size_t count = made.size();
         for (const auto& table : tables_) {
             const ParallelParts parts(table.size(), threads_, least_points);
@@ -176,20 +180,41 @@ private:
             });
             count = std::accumulate(of_parts.begin(), of_parts.end(), count);
         }
-        reserve_large(mesh_.points, count);
+        reserve_ready(mesh_.points, count);
         for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
-        for (const BoundaryEdge& e : edges)
-            if (bench_.is_corner(e.from)) number_[as_index(e.from)] = corner_of(e.from);
+        for (const EqualCorners::Pair& e : equal)
+            table_of_equal(e.mesh)[e.corner] = table_of_equal(0)[e.first];
+        for (const PointId p : corners) number_[as_index(p)] = corner_of(p);
         return made;
+    }
+
+    [[nodiscard]] PoolVector<std::uint32_t>& table_of_equal(std::size_t mesh) {
+        return tables_[parts_.table_of(parts_.equal_sources[mesh])];
+    }
+
+    // Corners in use that others stand for, which are in use instead.
+    std::vector<EqualCorners::Pair> replaced_corners() {
+        std::vector<EqualCorners::Pair> out;
+        if (parts_.equal_corners == nullptr) return out;
+        PoolVector<std::uint32_t>& first = table_of_equal(0);
+        PoolVector<std::uint32_t>& second = table_of_equal(1);
+        for (const EqualCorners::Pair& e : parts_.equal_corners->pairs) {
+            std::uint32_t& corner = (e.mesh == 0 ? first : second)[e.corner];
+            if (corner == no_number) continue;
+            corner = no_number;
+            first[e.first] = in_use;
+            out.push_back(e);
+        }
+        return out;
     }
 
     // Numbers and coordinates for the corners in use; `counts` of them in each part.
     void number_table(std::size_t t, std::span<const std::size_t> counts) {
         const LatticePoint* const points = parts_.sources[t].source()->mesh().points.data();
-        std::vector<std::uint32_t>& table = tables_[t];
-        std::vector<std::size_t> first(counts.size());
+        PoolVector<std::uint32_t>& table = tables_[t];
+        PoolVector<std::size_t> first(counts.size());
         std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
-        resize_on_threads(mesh_.points, first.back() + counts.back(), threads_);
+        resize_ready(mesh_.points, first.back() + counts.back());
         Point3d* const out = mesh_.points.data();
         ParallelParts(table.size(), threads_, least_points)
             .for_each([&, unit = unit_](std::size_t part, std::size_t begin, std::size_t end) {
@@ -222,31 +247,56 @@ private:
 
     // Cuts facets that do not pass through into triangles. `made`: vertices that are no corners.
     void cut_facets(std::span<const BoundaryEdge> edges, std::span<const PointId> made) {
-        std::vector<std::size_t> begins;  // of the edges of each
+        PoolVector<std::size_t> begins;  // of the edges of each
         for (std::size_t i = 0; i < edges.size(); ++i)
             if (i == 0 || edges[i].facet != edges[i - 1].facet) begins.push_back(i);
-        const std::vector<Point3d> rounded = rounded_coordinates(made);
+        const PoolVector<Point3d> rounded = rounded_coordinates(made);
         const MadeVertices vertices{number_, rounded, unit_};
-        const ParallelParts parts(begins.size(), threads_, least_cut);
+        // By edges: few facets may have nearly all of them.
+        const ParallelParts parts(edges.size(), threads_, least_cut_edges);
         std::vector<CutFacets> cut(parts.count());
+        const auto facet_from = [&](std::size_t edge) {
+            return static_cast<std::size_t>(std::ranges::lower_bound(begins, edge) -
+                                            begins.begin());
+        };
         begins.push_back(edges.size());
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            const std::size_t first = facet_from(begin);
+            const std::size_t last = facet_from(end);
             FacetCutter cutter(parts_, vertices);
-            cut[part].corners.reserve(3 * (begins[end] - begins[begin]));
-            for (std::size_t i = begin; i < end; ++i) {
+            cut[part].corners.reserve(3 * (begins[last] - begins[first]));
+            for (std::size_t i = first; i < last; ++i) {
                 check_stop();
+                look_ahead_at_facet(edges, begins, i, last);
                 cutter.cut(edges.subspan(begins[i], begins[i + 1] - begins[i]), cut[part]);
             }
         });
         number_made(cut, made, rounded);
     }
 
+    // The names of supports, which lie anywhere in memory.
+    void look_ahead_at_facet(std::span<const BoundaryEdge> edges,
+                             std::span<const std::size_t> begins, std::size_t i,
+                             std::size_t end) const {
+        constexpr std::size_t ahead = 6;
+        if (i + ahead >= end) return;
+        const BoundaryFacet& f = parts_.facets[as_index(edges[begins[i + ahead]].facet)];
+        __builtin_prefetch(&bench_.name(f.support));
+    }
+
     // Numbers them in this order, too, for the time being.
-    std::vector<Point3d> rounded_coordinates(std::span<const PointId> made) {
-        std::vector<Point3d> out(made.size());
+    PoolVector<Point3d> rounded_coordinates(std::span<const PointId> made) {
+        PoolVector<Point3d> out(made.size());
         ParallelParts(made.size(), threads_, least_made)
             .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                // Points and the names of their planes lie anywhere in memory.
+                constexpr std::size_t ahead = 6;
                 for (std::size_t i = begin; i < end; ++i) {
+                    if (i + 2 * ahead < end)
+                        __builtin_prefetch(&bench_.planes_of(made[i + 2 * ahead]));
+                    if (i + ahead < end)
+                        for (const PlaneId p : bench_.planes_of(made[i + ahead]))
+                            __builtin_prefetch(&bench_.name(p));
                     number_[as_index(made[i])] = static_cast<std::uint32_t>(i);
                     out[i] = in_units(bench_.nearest(made[i]), unit_);
                 }
@@ -258,17 +308,23 @@ private:
     // corners of triangles.
     void number_made(std::span<const CutFacets> cut, std::span<const PointId> made,
                      std::span<const Point3d> rounded) {
-        std::vector<std::uint32_t> at(made.size(), no_number);
+        PoolVector<std::uint32_t> at(made.size(), no_number);
         std::size_t corners = 0;
-        for (const CutFacets& part : cut) corners += part.corners.size();
+        std::size_t facets = 1;
+        for (const CutFacets& part : cut) {
+            corners += part.corners.size();
+            facets += part.facets.size();
+        }
         worked_.reserve(corners);
+        worked_facets_.reserve(facets);
         for (const CutFacets& part : cut) {
             for (const CutFacets::Facet& f : part.facets)
                 worked_facets_.push_back(
                     {{f.source, place_of(f.facet, f.flipped)}, worked_.size() + f.begin});
             for (const PointId p : part.corners) {
                 std::uint32_t number = number_[as_index(p)];
-                if (!bench_.is_corner(p)) {
+                // Without a look at the point, which lies anywhere in memory.
+                if (number < made.size() && made[number] == p) {
                     std::uint32_t& known = at[number];
                     if (known == no_number) {
                         known = static_cast<std::uint32_t>(mesh_.points.size());
@@ -289,8 +345,8 @@ private:
     }
 
     // The first facet that was cut, from one of a source on.
-    [[nodiscard]] std::vector<Worked>::const_iterator worked_from(std::size_t t,
-                                                                  std::size_t facet) const {
+    [[nodiscard]] PoolVector<Worked>::const_iterator worked_from(std::size_t t,
+                                                                 std::size_t facet) const {
         const std::pair at(t, place_of(static_cast<std::uint32_t>(facet), false));
         return std::ranges::lower_bound(worked_facets_, at, {}, &Worked::place);
     }
@@ -299,7 +355,7 @@ private:
     void write_source(std::size_t t) {
         const FacetMarks& marks = parts_.sources[t];
         const ParallelParts parts(marks.group_count(), threads_, least_group_count);
-        std::vector<std::size_t> whole(parts.count());  // before each part
+        PoolVector<std::size_t> whole(parts.count());  // before each part
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             whole[part] = marks.counts(begin, end).whole;
         });
@@ -348,7 +404,7 @@ private:
     }
 
     void number_faces() {
-        resize_on_threads(mesh_.face_begin, mesh_.corners.size() / 3 + 1, threads_);
+        resize_ready(mesh_.face_begin, mesh_.corners.size() / 3 + 1);
         ParallelParts(mesh_.face_begin.size(), threads_, least_points)
             .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i)
@@ -363,14 +419,14 @@ private:
     const Workbench& bench_;
     CornerTables tables_;
     PolygonMesh mesh_;
-    std::vector<Worked> worked_facets_;  // in their order; then one more where they end
-    std::vector<std::uint32_t> worked_;  // three corners a triangle
+    PoolVector<Worked> worked_facets_;  // in their order; then one more where they end
+    PoolVector<std::uint32_t> worked_;  // three corners a triangle
     std::size_t whole_written_ = 0;
-    std::vector<std::uint32_t> number_;  // by PointId
+    PoolVector<std::uint32_t> number_;  // by PointId
 };
 
 // The corners of facets that pass through: vertices, whatever the others do there.
-std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
+PoolVector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
     std::vector<std::vector<bool>> used;
     for (const FacetMarks& marks : parts.sources) {
         const LatticeMesh& mesh = marks.source()->mesh();
@@ -379,7 +435,7 @@ std::vector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
             for (const std::uint32_t v : mesh.triangles[facet]) is_used[v] = true;
         });
     }
-    std::vector<PointId> out;
+    PoolVector<PointId> out;
     for (std::size_t p = 0; p < parts.bench.point_count(); ++p) {
         if (!parts.bench.is_corner(static_cast<PointId>(p))) continue;
         const auto [source, v] = parts.bench.corner_name(static_cast<PointId>(p));
@@ -400,18 +456,19 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
                      std::uint32_t threads, const MeshDetails& details) {
     BoundaryParts parts;
     gather_parts(solid, parts, by_planes, threads);
-    std::vector<BoundaryEdge> edges = std::move(parts.edges);
+    if (threads != 1) parts.bench.share();
+    BoundaryEdges edges = std::move(parts.edges);
     const auto join = [&] {
         if (parts.are_joined) return sort_by_facet(parts, edges);
         join_facets(parts, edges);
-        remove_straight_vertices(parts, true, {}, edges);
+        remove_straight_vertices(parts, true, {}, edges, threads);
         // Facets that nothing changed are left alone, so that it does not show which of them the
         // tree has looked at.
         mark_unchanged_facets(parts, edges);
-        parts.stats.joined_facets = join_coplanar_facets(parts, false, edges);
+        parts.stats.joined_facets = join_coplanar_facets(parts, false, edges, threads);
         join_planes_across_axes(parts, edges);
         if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
-            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges);
+            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges, threads);
     };
     // What was cut and what passes through have nothing to do with each other yet.
     CornerTables tables;
@@ -424,7 +481,6 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         find_corners();
     }
     if (stats != nullptr) *stats = parts.stats;
-    if (threads != 1) parts.bench.share();
     MeshWriter writer(solid, parts, std::move(tables), threads);
     PolygonMesh mesh = writer.write(edges);
     if (details.names != nullptr) *details.names = writer.names();
@@ -432,18 +488,21 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     return mesh;
 }
 
-// How many facets a form lists, and how often these cross.
+// How many facets a form lists, and how often these cross, or what edges their outlines have.
 struct ListedFacets {
     std::size_t operator()(const CellTree& tree) const {
         return tree.root.node->size() + (tree.crossings ? tree.crossings->pairs.size() : 0);
     }
-    std::size_t operator()(const PrismOutlines& prisms) const { return prisms.whole->size(); }
+    std::size_t operator()(const PrismOutlines& prisms) const {
+        return prisms.whole->size() + prisms.outlines->edges.size();
+    }
     std::size_t operator()(const FlatPrism& prism) const {
         return prism.operand->given().segments.size();
     }
     std::size_t operator()(const UndividedMeshes& meshes) const {
         std::size_t facets = meshes.crossings->pairs.size();
         for (const UncrossedFacets& list : meshes.uncrossed) facets += list.facets.size();
+        if (meshes.outlined != nullptr) facets += meshes.outlined->edges.size();
         return meshes.beside != nullptr ? facets + (*this)(*meshes.beside) : facets;
     }
 };
@@ -451,7 +510,7 @@ struct ListedFacets {
 PolygonMesh assemble_on_threads(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                                 std::uint32_t threads, const MeshDetails& details) {
     // No arena for what no step would divide.
-    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
+    const bool small = std::visit(ListedFacets(), solid.form) < 1024;
     return on_threads(small ? 1 : threads, [&](std::uint32_t n) {
         return assemble(solid, stats, by_planes, n, details);
     });

@@ -99,7 +99,6 @@ void conform_splitters(const BoundaryParts& parts, BoundaryEdges& edges) {
     const auto on_splitter = [&](const BoundaryEdge& e) {
         return parts.bench.name(e.line.plane).is_splitter();
     };
-    if (std::none_of(edges.begin(), edges.end(), on_splitter)) return;
     BoundaryEdges splitters;
     std::copy_if(edges.begin(), edges.end(), std::back_inserter(splitters), on_splitter);
     std::erase_if(edges, on_splitter);
@@ -134,6 +133,27 @@ void arrange_loops(std::span<BoundaryEdge> edges) {
     }
 }
 
+namespace {
+
+// Whether an edge lies in a splitting plane.
+bool have_splitters(const BoundaryParts& parts, const BoundaryEdges& edges) {
+    bool out = false;
+    constexpr std::size_t ahead = 16;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        // Planes lie anywhere in memory.
+        if (i + ahead < edges.size())
+            __builtin_prefetch(&parts.bench.name(edges[i + ahead].line.plane));
+        const PlaneName& n = parts.bench.name(edges[i].line.plane);
+        if (!n.is_splitter()) continue;
+        out = true;
+        if (std::abs(n.position()) >= universe_limit)
+            throw UnsupportedError("the boundary is unbounded: it has no B-rep and no mesh");
+    }
+    return out;
+}
+
+}  // namespace
+
 void join_facets(const BoundaryParts& parts, BoundaryEdges& edges) {
     sort_by_facet(parts, edges);
     BoundaryEdges out;
@@ -164,14 +184,9 @@ void join_facets(const BoundaryParts& parts, BoundaryEdges& edges) {
                 out.resize(first + cancel_opposites(std::span(out).subspan(first), cancelled));
         }
         EdgeChains::arrange(std::span(out).subspan(first));
-        for (const BoundaryEdge& e : std::span(out).subspan(first)) {
-            const PlaneName& n = parts.bench.name(e.line.plane);
-            if (n.is_splitter() && std::abs(n.position()) >= universe_limit)
-                throw UnsupportedError("the boundary is unbounded: it has no B-rep and no mesh");
-        }
     }
     edges.swap(out);
-    conform_splitters(parts, edges);
+    if (have_splitters(parts, edges)) conform_splitters(parts, edges);
     put_back_crossings(parts, all_cancelled, edges);
     if (parts.crossings.empty()) return;
     edges.insert(edges.end(), parts.crossings.begin(), parts.crossings.end());
@@ -251,6 +266,7 @@ public:
     /// Calls join(f, g) for the facets of every pair.
     template <class Join>
     void run(std::uint32_t threads, Join&& join) {
+        list_candidates();
         make_normals(threads);
         find_pairs(threads);
         find_whole_facets();
@@ -270,9 +286,22 @@ private:
         PoolVector<std::uint64_t> crowded;
     };
 
+    // Where facets do no more than cross, nothing else has that edge.
+    void list_candidates() {
+        candidates_.resize(edges_.size());
+        std::size_t count = 0;
+        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+            const BoundaryFacet& f = parts_.facets[as_index(edges_[e].facet)];
+            const PlaneId before_support = f.support - edges_[e].line.plane;
+            candidates_[count] = e;
+            count += !f.is_general || (before_support > 0 && before_support <= 3) ? 1 : 0;
+        }
+        candidates_.resize(count);
+    }
+
     // Each thread has the edges with the ends of one table.
     void find_pairs(std::uint32_t threads) {
-        const std::size_t count = parts_by_thread(edges_.size(), threads, least_edges).count();
+        const std::size_t count = parts_by_thread(candidates_.size(), threads, least_edges).count();
         std::vector<Table> tables(count);
         ParallelParts(count, count == 1 ? 1 : threads, 1)
             .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
@@ -293,25 +322,25 @@ private:
     void find_pairs(std::vector<Table>& tables, std::size_t number) {
         Table& own = tables[number];
         const std::size_t count = tables.size();
+        const auto hash_of = [&](std::uint32_t e) { return mix64(ends_of(edges_[e])); };
         const auto is_own = [&](std::uint64_t hash) { return (hash >> 40) % count == number; };
-        const auto own_count = count == 1
-                                   ? static_cast<std::ptrdiff_t>(edges_.size())
-                                   : std::ranges::count_if(edges_, [&](const BoundaryEdge& e) {
-                                         return is_own(mix64(ends_of(e)));
-                                     });
+        const auto own_count =
+            count == 1 ? static_cast<std::ptrdiff_t>(candidates_.size())
+                       : std::ranges::count_if(candidates_,
+                                               [&](std::uint32_t e) { return is_own(hash_of(e)); });
         own.edges.assign(std::bit_ceil(2 * static_cast<std::size_t>(own_count) + 1), none);
         const std::size_t mask = own.edges.size() - 1;
-        constexpr std::uint32_t ahead = 8;
-        for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+        constexpr std::size_t ahead = 8;
+        for (std::size_t i = 0; i < candidates_.size(); ++i) {
             // Both lie anywhere in memory.
-            if (count == 1 && e + 2 * ahead < edges_.size())
-                __builtin_prefetch(&own.edges[mix64(ends_of(edges_[e + 2 * ahead])) & mask]);
-            if (count == 1 && e + ahead < edges_.size()) {
-                const std::uint32_t at = own.edges[mix64(ends_of(edges_[e + ahead])) & mask];
+            if (count == 1 && i + 2 * ahead < candidates_.size())
+                __builtin_prefetch(&own.edges[hash_of(candidates_[i + 2 * ahead]) & mask]);
+            if (count == 1 && i + ahead < candidates_.size()) {
+                const std::uint32_t at = own.edges[hash_of(candidates_[i + ahead]) & mask];
                 if (at != none) __builtin_prefetch(&edges_[at]);
             }
-            const std::uint64_t hash = mix64(ends_of(edges_[e]));
-            if (count == 1 || is_own(hash)) enter(own, e, hash & mask);
+            const std::uint64_t hash = hash_of(candidates_[i]);
+            if (count == 1 || is_own(hash)) enter(own, candidates_[i], hash & mask);
         }
     }
 
@@ -416,7 +445,8 @@ private:
     const BoundaryParts& parts_;
     bool within_faces_;
     const BoundaryEdges& edges_;
-    PoolVector<TriangleNormal> normals_;  // by facet
+    PoolVector<std::uint32_t> candidates_;  // edges that may have such a one
+    PoolVector<TriangleNormal> normals_;    // by facet
     PoolVector<std::uint8_t> gone_;
     PoolVector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     PoolVector<std::uint64_t> crowded_;  // ends of more than two edges

@@ -37,10 +37,12 @@ public:
         const std::int32_t worked = marks.number_of_worked(facet.number - o.first, o.inside_above);
         const PlaneId own = first_edge_of(facet.number, slot);
         BoundaryFacet& f = parts_.facets[as_index(worked)];
-        f.support = parts_.bench.support_of(own);
+        f.support = support_behind(own);
         f.is_special = std::ranges::binary_search(operands_.special, facet.number);
+        f.is_general = !f.is_special;
         f.parts = f.is_special ? 2 : 1;
         for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
+            look_ahead(e);
             const OutlinedFacets::Edge& edge = outlined_.edges[e];
             PointId from = point(edge.from);
             PointId to = point(edge.to);
@@ -64,7 +66,7 @@ public:
         const std::int32_t worked = marks.number_of_worked(facet, o.inside_above);
         const PlaneId own = first_edge_of(number, slot);
         BoundaryFacet& f = parts_.facets[as_index(worked)];
-        f.support = parts_.bench.support_of(own);
+        f.support = support_behind(own);
         f.is_special = true;
         f.parts = 2;
         for (int k = 0; k < 3; ++k) {
@@ -79,6 +81,12 @@ public:
     }
 
 private:
+    // Vertices lie anywhere in memory.
+    void look_ahead(std::uint32_t edge) const {
+        constexpr std::size_t ahead = 12;
+        if (edge + ahead < outlined_.edges.size())
+            __builtin_prefetch(&outlined_.vertices[outlined_.edges[edge + ahead].from]);
+    }
     WorkEdge line_of(const OutlinedFacets::Edge& e, PlaneId own) {
         if (e.edge >= 0) return {own + e.edge, false};
         return {support_of(e.cutter), !e.open_below};
@@ -103,9 +111,9 @@ private:
         const PlaneId known = planes_[number];
         return known >= 0 ? known : first_edge_of(number, operand_of_(number));
     }
-    PlaneId support_of(std::uint32_t number) {
-        return parts_.bench.support_of(first_edge_of(number));
-    }
+    // Without a look at the plane, which lies anywhere in memory.
+    static PlaneId support_behind(PlaneId first_edge) { return first_edge + 3; }
+    PlaneId support_of(std::uint32_t number) { return support_behind(first_edge_of(number)); }
 
     PointId point(std::uint32_t vertex) {
         PointId& known = points_[vertex];
@@ -120,7 +128,7 @@ private:
             }
             case OutlineVertex::Kind::Pierce: {
                 const PlaneId own = first_edge_of(v.facets[0]);
-                return parts_.bench.add_point(parts_.bench.support_of(own), own + v.which,
+                return parts_.bench.add_point(support_behind(own), own + v.which,
                                               support_of(v.facets[1]), v.at);
             }
             case OutlineVertex::Kind::Meeting:
