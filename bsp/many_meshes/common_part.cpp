@@ -22,6 +22,7 @@
 #include <trisect/bsp/many_meshes/buckets.h>
 #include <trisect/bsp/many_meshes/common_segments.h>
 #include <trisect/bsp/many_meshes/crossed_facets.h>
+#include <trisect/bsp/many_meshes/outlines/box_sum.h>
 #include <trisect/bsp/many_meshes/point_side.h>
 #include <trisect/bsp/many_meshes/stops_in_order.h>
 #include <trisect/bsp/many_meshes/vertex_sides.h>
@@ -102,6 +103,9 @@ private:
 
     void start(const Solid& first, const Solid& second);
     void find_near(std::size_t solid);
+    [[nodiscard]] std::span<const std::uint32_t> near(std::size_t solid) const {
+        return std::span(near_[solid]).first(near_count_[solid]);
+    }
     [[nodiscard]] bool find_cuts(EvaluateStats& stats);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
                  const FacetCrossing& line);
@@ -148,13 +152,15 @@ private:
     std::array<OutlinedSolid, 2> solids_;  // until something is kept
     std::array<std::size_t, 3> firsts_{};  // of their facets, and where these end
     std::array<std::size_t, 3> edges_{};   // of their edges
+    std::array<std::size_t, 3> vertices_{};
     CrossedFacetsFinder finder_;
     CommonSegments segments_;
     PoolVector<OutlineVertex> made_;
     FlatMap made_by_name_;
-    Buckets<Stop> stops_;                             // by edge
-    std::array<std::vector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
-    std::array<Buckets<Cut>, 2> cuts_;                // by place
+    Buckets<Stop> stops_;                            // by edge
+    std::array<PoolVector<std::uint32_t>, 2> near_;  // places whose boxes meet the other solid's
+    std::array<std::size_t, 2> near_count_{};        // of these
+    std::array<Buckets<Cut>, 2> cuts_;               // by place
     VertexSides sides_;  // of vertices of facets that are near: of the other solid
     Known known_;
     std::size_t first_known_ = 0;  // that vertex of the store
@@ -165,6 +171,7 @@ void CommonPart::Steps::start(const Solid& first, const Solid& second) {
     solids_ = {store_.view(first, second), store_.view(second)};
     firsts_ = {first.facets, second.facets, store_.facets().size()};
     edges_ = {first.edges, second.edges, store_.edges().size()};
+    vertices_ = {first.vertices, second.vertices, store_.vertices().size()};
     segments_.start(solids_[0], solids_[1]);
     made_.clear();
     clear(made_by_name_);
@@ -177,14 +184,20 @@ void CommonPart::Steps::start(const Solid& first, const Solid& second) {
 }
 
 void CommonPart::Steps::find_near(std::size_t solid) {
-    near_[solid].clear();
+    PoolVector<std::uint32_t>& near = near_[solid];
     const std::span<const OutlineBox> boxes = solids_[solid].boxes;
-    for (std::uint32_t f = 0; f < boxes.size(); ++f)
-        if (boxes[f].meets(solids_[1 - solid].box)) near_[solid].push_back(f);
+    if (near.size() < boxes.size()) near.resize(boxes.size());
+    const BoxProbe other(solids_[1 - solid].box);
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < boxes.size(); ++f) {
+        near[count] = f;
+        count += other.meets(boxes[f]) ? 1 : 0;
+    }
+    near_count_[solid] = count;
 }
 
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
-    if (!finder_.find(solids_[0], solids_[1], {near_[0], near_[1]}, stats)) return false;
+    if (!finder_.find(solids_[0], solids_[1], {near(0), near(1)}, stats)) return false;
     for (const CrossedFacets& c : finder_.pairs()) {
         if (!segments_.find(c.places, c.crossing)) return false;
         if (segments_.segments().empty()) continue;
@@ -263,18 +276,21 @@ int CommonPart::Steps::order_of_stops(const OutlinedSolid::Edge& edge, std::uint
 // Of facets that are near. Each is where an edge begins.
 void CommonPart::Steps::list_vertices(std::size_t solid) {
     const OutlinedSolid& s = solids_[solid];
-    sides_.start_list();
-    for (const std::uint32_t f : near_[solid]) {
+    sides_.start_list(vertices_[solid], vertices_[solid + 1]);
+    for (const std::uint32_t f : near(solid)) {
         const OutlinedSolid::Facet& facet = s.facets[f];
         const OutlinedSolid::Edge* const edges = s.edges.data() + facet.first;
         if (!facet.whole) {  // it may have several outlines
-            for (std::uint32_t i = 0; i < facet.count; ++i) sides_.list(edges[i].from);
-            for (std::uint32_t i = 0; i < facet.count; ++i)
+            for (std::uint32_t i = 0; i < facet.count; ++i) {
+                sides_.use(edges[i].from);
                 if (!stops_.has(facet.first + i)) sides_.join(edges[i].from, edges[i].to);
+            }
             continue;
         }
         const std::array<std::uint32_t, 3> corners{edges[0].from, edges[1].from, edges[2].from};
-        for (const std::uint32_t v : corners) sides_.list(v);
+        for (const std::uint32_t v : corners) sides_.use(v);
+        if (sides_.are_joined(corners[0], corners[1]) && sides_.are_joined(corners[1], corners[2]))
+            continue;
         const bool is_pierced = stops_.has(facet.first);
         const bool is_next_pierced = stops_.has(facet.first + 1);
         if (!is_pierced) sides_.join(corners[0], corners[1]);
@@ -283,6 +299,7 @@ void CommonPart::Steps::list_vertices(std::size_t solid) {
         if ((is_pierced || is_next_pierced) && !stops_.has(facet.first + 2))
             sides_.join(corners[2], corners[0]);
     }
+    sides_.list();
 }
 
 // Of the edges that are pierced.
@@ -319,7 +336,7 @@ void CommonPart::Steps::mark_beyond(std::size_t solid) {
     const OutlineBox& other = solids_[1 - solid].box;
     const Side far = is_far_open(solid) ? Side::Open : Side::Closed;
     for (const std::uint32_t v : sides_.listed()) {
-        Side& side = sides_.of(sides_.root(v));
+        Side& side = sides_.of(sides_.root_of(v));
         if (side == Side::Unknown && other.is_beside(s.vertices[v].at)) side = far;
     }
 }
@@ -329,11 +346,11 @@ bool CommonPart::Steps::find_sides(std::size_t solid) {
     if (!mark_ends(solid) || !mark_known(solid)) return false;
     for (const std::uint32_t v : sides_.listed())
         if (const Side side = sides_.of(v);
-            side != Side::Unknown && !sides_.mark(sides_.root(v), side))
+            side != Side::Unknown && !sides_.mark(sides_.root_of(v), side))
             return false;
     mark_beyond(solid);
     for (const std::uint32_t v : sides_.listed()) {
-        const std::uint32_t root = sides_.root(v);
+        const std::uint32_t root = sides_.root_of(v);
         if (sides_.of(root) == Side::Unknown) {
             const auto open = side_of_part(solid, root);
             if (!open) return false;
@@ -350,11 +367,11 @@ std::optional<bool> CommonPart::Steps::side_of_part(std::size_t solid, std::uint
     const OutlinedSolid& other = solids_[1 - solid];
     if (const auto open = is_open_at(s.vertices[root].at, other, segments_, 1 - solid)) return open;
     for (const std::uint32_t v : sides_.listed())
-        if (s.vertices[v].kind == OutlineVertex::Kind::Corner && sides_.root(v) == root)
+        if (s.vertices[v].kind == OutlineVertex::Kind::Corner && sides_.root_of(v) == root)
             return is_open_at_corner(s.vertices[v], other);
     // None is left of them. Another vertex may be clear of the other solid's boundary.
     for (const std::uint32_t v : sides_.listed())
-        if (v != root && sides_.root(v) == root)
+        if (v != root && sides_.root_of(v) == root)
             if (const auto open = is_open_at(s.vertices[v].at, other, segments_, 1 - solid))
                 return open;
     return std::nullopt;
@@ -370,10 +387,10 @@ std::uint32_t CommonPart::Steps::kept_made(std::uint32_t v) {
 
 // Those from an edge on, which are one facet's.
 OutlineBox CommonPart::Steps::box_of_edges(std::uint32_t first) const {
-    OutlineBox box = OutlineBox::none();
+    BoxSum box;
     const OutlinedSolid all = store_.view({});
     for (const OutlinedSolid::Edge& e : all.edges.subspan(first)) box.add(all.vertices[e.from].at);
-    return box;
+    return box.box();
 }
 
 bool CommonPart::Steps::is_untouched(std::size_t solid, std::uint32_t place,
@@ -432,30 +449,32 @@ bool CommonPart::Steps::keep_near(std::size_t solid, std::uint32_t place, Solid&
 void CommonPart::Steps::keep_parts(std::size_t solid, Solid& out, std::size_t& kept) {
     PoolVector<Facet>& facets = store_.facets();
     PoolVector<OutlineBox>& boxes = store_.boxes();
-    const bool is_far_kept = is_far_open(solid);
-    auto near = near_[solid].begin();
-    for (std::size_t i = firsts_[solid]; i < firsts_[solid + 1]; ++i) {
-        const auto place = static_cast<std::uint32_t>(i - firsts_[solid]);
-        if (near == near_[solid].end() || *near != place) {
-            if (!is_far_kept) {
-                out.unused_edges += facets[i].count;
-                continue;
-            }
-            if (kept != i) {
-                facets[kept] = facets[i];
-                boxes[kept] = boxes[i];
-            }
-        } else {
-            ++near;
-            Facet facet = facets[i];
-            OutlineBox box = boxes[i];
-            if (!keep_near(solid, place, out, facet, box)) continue;
-            facets[kept] = facet;
-            boxes[kept] = box;
+    BoxSum all(out.box);
+    std::size_t i = firsts_[solid];
+    // What is far comes in runs.
+    const auto keep_far = [&](std::size_t end) {
+        if (!is_far_open(solid)) {
+            for (; i < end; ++i) out.unused_edges += facets[i].count;
+            return;
         }
-        out.box.add(boxes[kept]);
-        ++kept;
+        for (; i < end; ++i, ++kept) {
+            all.add(boxes[i]);
+            if (kept == i) continue;
+            facets[kept] = facets[i];
+            boxes[kept] = boxes[i];
+        }
+    };
+    for (const std::uint32_t place : near(solid)) {
+        keep_far(firsts_[solid] + place);
+        Facet facet = facets[i];
+        OutlineBox box = boxes[i++];
+        if (!keep_near(solid, place, out, facet, box)) continue;
+        all.add(box);
+        facets[kept] = facet;
+        boxes[kept++] = box;
     }
+    keep_far(firsts_[solid + 1]);
+    out.box = all.box();
 }
 
 OutlineStore::Solid CommonPart::Steps::keep(const Solid& first, const Solid& second) {

@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include <trisect/bsp/cells/trace/interpolation.h>
+#include <trisect/bsp/many_meshes/sort_few.h>
 #include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
@@ -90,9 +91,17 @@ void CommonSegments::set_way() {
 
 // Of the plane of the facet of the other solid. All facets around a vertex cross that facet, so
 // that it is wanted several times.
-int CommonSegments::side(std::size_t solid, std::uint32_t vertex, const FilteredPlane& plane) {
+inline int CommonSegments::side(std::size_t solid, std::uint32_t vertex,
+                                const FilteredPlane& plane) {
     const OutlineVertex& v = solids_[solid]->vertices[vertex];
-    if (const int side = plane.sign(v.at); side != 0) return side;
+    const double value = plane.value(v.at.c);
+    // Without a branch by the sign: it would be foreseen wrongly.
+    if (std::fabs(value) > plane.error(v.at)) return 1 - 2 * static_cast<int>(std::signbit(value));
+    return exact_side(solid, vertex);
+}
+
+int CommonSegments::exact_side(std::size_t solid, std::uint32_t vertex) {
+    const OutlineVertex& v = solids_[solid]->vertices[vertex];
     const std::uint32_t facet = crossing_->facets[1 - solid];
     const Key128 key{std::uint64_t{solid} << 32 | vertex, facet};
     constexpr std::int32_t by_moves = 4;
@@ -188,8 +197,7 @@ bool CommonSegments::set_place(Passage& p, const std::array<std::uint32_t, 3>& f
 bool CommonSegments::sort_inside() {
     bool known = true;
     if (inside_.size() < 2) return true;
-    // Stable sorting stays within its range, whatever the answers.
-    std::ranges::stable_sort(inside_, [&](const Passage& a, const Passage& b) {
+    sort_few(std::span(inside_), [&](const Passage& a, const Passage& b) {
         if (std::fabs(b.along - a.along) > bound_slack * (a.at.error + b.at.error))
             return a.along < b.along;
         if (a.edge == b.edge && a.of_second == b.of_second) return false;

@@ -62,6 +62,7 @@ private:
     };
     void set_way();
     [[nodiscard]] int side(std::size_t solid, std::uint32_t vertex, const FilteredPlane& plane);
+    [[nodiscard]] int exact_side(std::size_t solid, std::uint32_t vertex);
     void note_short_segments() const;
     [[nodiscard]] bool list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
                                      const FilteredPlane& other);

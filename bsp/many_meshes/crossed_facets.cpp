@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include <trisect/bsp/many_meshes/outlines/box_sum.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/task_group.h>
 
@@ -25,48 +25,49 @@ constexpr std::size_t few_items = 280;
 // What a splitting plane may leave of the pairs; once in a row it may leave more.
 constexpr double worthy_part_of_pairs = 0.75;
 
-template <class Items>
-std::uint64_t pairs_of(const Items& items) {
-    return std::uint64_t{items[0].size()} * items[1].size();
-}
-
-template <class Items>
-bool are_few_pairs(const Items& items) {
-    const bool few = items[0].size() + items[1].size() <= few_items;
-    return pairs_of(items) <= (few ? pairs_of_few : few_pairs);
-}
-
 // Fewer items of a cell are not worth a thread of their own.
 constexpr std::size_t least_at_once = std::size_t{1} << 16;
 
 constexpr std::array<std::size_t, 2> second_first{1, 0};
 
-// So that no other cell lists it.
-bool lies_within(const OutlineBox& box, const OutlineBox& bounds) {
-    bool out = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-        out &= bounds.lo[k] <= box.lo[k];
-        out &= box.hi[k] < bounds.hi[k];
+// How many there are of each kind, by the bits of each of them.
+class CountsByAxis {
+public:
+    void add(unsigned bits) { counts_ += fields[bits & SingleBox::axes]; }
+    void flush(std::array<std::size_t, 3>& to) {
+        for (std::size_t k = 0; k < 3; ++k) to[k] += counts_ >> width * k & ((1U << width) - 1);
+        counts_ = 0;
     }
-    return out;
-}
+    static constexpr std::size_t most = std::size_t{1} << 20;  // before they are flushed
+
+private:
+    static constexpr std::size_t width = 21;
+    static constexpr std::uint64_t x = 1;
+    static constexpr std::uint64_t y = x << width;
+    static constexpr std::uint64_t z = y << width;
+    static constexpr std::array<std::uint64_t, 8> fields{0, x,     y,     x + y,
+                                                         z, x + z, y + z, x + y + z};
+    std::uint64_t counts_ = 0;
+};
 
 // A triangle, cut by planes across the axes: in doubles, off by no more than its margin.
 class CutTriangle {
 public:
     explicit CutTriangle(const std::array<Vector3, 3>& corners) {
         for (const Vector3& c : corners) {
-            points_[count_++] = c;
+            points()[count_++] = c;
             for (const double v : c) margin_ = std::max(margin_, 0x1p-45 * std::fabs(v));
         }
     }
     void cut(std::size_t axis, double at, bool below) {
-        std::array<Vector3, most> out;
+        const Points& from = points();
+        current_ = 1 - current_;
+        Points& out = points();
         std::size_t n = 0;
         const auto height = [&](const Vector3& p) { return below ? at - p[axis] : p[axis] - at; };
         for (std::size_t i = 0; i < count_; ++i) {
-            const Vector3& p = points_[i];
-            const Vector3& q = points_[i + 1 == count_ ? 0 : i + 1];
+            const Vector3& p = from[i];
+            const Vector3& q = from[i + 1 == count_ ? 0 : i + 1];
             const double a = height(p);
             const double b = height(q);
             if (a >= 0) out[n++] = p;
@@ -76,19 +77,22 @@ public:
                 ++n;
             }
         }
-        points_ = out;
         count_ = n;
     }
     [[nodiscard]] double margin() const { return margin_; }
     [[nodiscard]] OutlineBox box() const {
-        OutlineBox b = OutlineBox::none();
-        for (std::size_t i = 0; i < count_; ++i) b.add(Approximation{points_[i], margin_});
-        return b;
+        BoxSum b;
+        for (std::size_t i = 0; i < count_; ++i)
+            b.add(Approximation{buffers_[current_][i], margin_});
+        return b.box();
     }
 
 private:
     static constexpr std::size_t most = 10;
-    std::array<Vector3, most> points_;
+    using Points = std::array<Vector3, most>;
+    [[nodiscard]] Points& points() { return buffers_[current_]; }
+    std::array<Points, 2> buffers_;  // of which one is in use
+    std::size_t current_ = 0;
     std::size_t count_ = 0;
     double margin_ = 0;
 };
@@ -103,12 +107,22 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
     known_.clear();
     all_known_.clear();
     is_shared_ = options_.threads != 1 && near[0].size() + near[1].size() >= 2 * least_at_once;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Cell cell;
-    cell.bounds = {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+    cell.bounds = SingleBox::everywhere();
+    OutlineBox place = first.box;
+    for (std::size_t k = 0; k < 3; ++k) {
+        place.lo[k] = std::max(place.lo[k], second.box.lo[k]);
+        place.hi[k] = std::min(place.hi[k], second.box.hi[k]);
+    }
+    place_ = SinglePlace(place.lo, place.hi);
     for (std::size_t i = 0; i < 2; ++i) {
-        cell.items[i].reserve(near[i].size());
-        for (const std::uint32_t f : near[i]) cell.items[i].push_back({solids_[i]->boxes[f], f});
+        cell.end[i] = near[i].size();
+        if (items_[i].size() < near[i].size()) items_[i].resize(near[i].size());
+        Item* next = items_[i].data();
+        for (const std::uint32_t f : near[i]) {
+            const OutlineBox& b = solids_[i]->boxes[f];
+            *next++ = Item(place_.box(b.lo, b.hi), f);
+        }
     }
     if (!is_shared_) return solve(cell);
     return isolated([&] { return solve(cell); });
@@ -118,7 +132,8 @@ bool CrossedFacetsFinder::solve(Cell& cell) {
     ++stats_->cells;
     check_budget(options_, *stats_);
     if (!leave_out(cell)) return true;
-    if (are_few_pairs(cell.items)) return compare(cell);
+    if (cell.pair_count() <= (cell.count() <= few_items ? pairs_of_few : few_pairs))
+        return compare(cell);
     const Splitter splitter = splitter_of(cell);
     const bool stalls = splitter.part_left > worthy_part_of_pairs;
     if (stalls && cell.stalled) return compare(cell);
@@ -127,110 +142,173 @@ bool CrossedFacetsFinder::solve(Cell& cell) {
 }
 
 // Takes out what does not meet the other ones' boxes in the cell; false when nothing is left.
-bool CrossedFacetsFinder::leave_out(Cell& cell) const {
+bool CrossedFacetsFinder::leave_out(Cell& cell) {
     for (std::size_t i = 0; i < 2; ++i) {
-        OutlineBox& reach = cell.reach;
-        reach = OutlineBox::none();
-        for (const Item& item : cell.items[1 - i]) reach.add(item.box);
-        for (std::size_t k = 0; k < 3; ++k) {
-            reach.lo[k] = std::max(reach.lo[k], cell.bounds.lo[k]);
-            reach.hi[k] = std::min(reach.hi[k], cell.bounds.hi[k]);
-        }
-        std::erase_if(cell.items[i], [&](Item& item) {
-            if (reach.contains(item.box)) return false;
-            if (!item.box.meets(reach)) return true;
-            draw_in(i, item, reach);
-            return !item.box.meets(reach);
-        });
-        if (cell.items[i].empty()) return false;
+        SingleBox reach = SingleBox::none();
+        for (const Item& item : items_of(cell, 1 - i)) reach.add(item.box());
+        reach.cut(cell.bounds);
+        // What they have as the fourth number is nothing here.
+        reach.lo[3] = reach.down[3] = 0;
+        cell.reach = reach;
+        cell.end[i] = cell.first[i] + leave_out(i, items_of(cell, i), reach);
+        if (cell.count(i) == 0) return false;
     }
     return true;
 }
 
-// A facet that is long beside the reach along two axes.
-void CrossedFacetsFinder::draw_in(std::size_t solid, Item& item, const OutlineBox& reach) const {
-    int along = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-        along += 3 * (item.box.hi[k] - item.box.lo[k]) > reach.hi[k] - reach.lo[k] ? 1 : 0;
-    if (along < 2) return;
-    const OutlinedSolid::Facet& f = solids_[solid]->facets[item.place];
+// Of those that are left, which come first, how many. Without a branch for nearly all.
+std::size_t CrossedFacetsFinder::leave_out(std::size_t solid, std::span<Item> items,
+                                           const SingleBox& reach) const {
+    const FourFloats zero(0);
+    const FourFloats lo(reach.lo);
+    const FourFloats down(reach.down);
+    const FourFloats hi = zero - down;
+    const FourFloats minus_lo = zero - lo;
+    const FourFloats extent = hi - lo;
+    std::size_t left = 0;
+    for (const Item& listed : items) {
+        const Item item = listed;
+        const FourFloats item_lo(item.box().lo);
+        const FourFloats item_down(item.box().down);
+        const bool is_apart =
+            ((greater(item_lo, hi) | greater(item_down, minus_lo)) & SingleBox::axes) != 0;
+        const bool is_within =
+            ((greater(lo, item_lo) | greater(down, item_down)) & SingleBox::axes) == 0;
+        // Long beside the reach along two axes.
+        const unsigned along =
+            greater(FourFloats(-3) * (item_lo + item_down), extent) & SingleBox::axes;
+        items[left] = item;
+        if (!is_apart && !is_within && (along & (along - 1)) != 0) {
+            draw_in(solid, items[left], reach);
+            if (!items[left].box().meets(reach)) continue;
+        }
+        left += is_apart ? 0 : 1;
+    }
+    return left;
+}
+
+void CrossedFacetsFinder::draw_in(std::size_t solid, Item& item, const SingleBox& reach) const {
+    const OutlinedSolid::Facet& f = solids_[solid]->facets[item.place()];
     CutTriangle part(meshes_.corners(f.slot, f.number - meshes_.operands->operands[f.slot].first));
     for (std::size_t k = 0; k < 3; ++k) {
-        if (item.box.lo[k] < reach.lo[k]) part.cut(k, reach.lo[k] - part.margin(), false);
-        if (item.box.hi[k] > reach.hi[k]) part.cut(k, reach.hi[k] + part.margin(), true);
+        if (item.box().lo[k] < reach.lo[k])
+            part.cut(k, place_.lower(reach, k) - part.margin(), false);
+        if (item.box().hi(k) > reach.hi(k))
+            part.cut(k, place_.upper(reach, k) + part.margin(), true);
     }
     const OutlineBox box = part.box();
-    for (std::size_t k = 0; k < 3; ++k) {
-        item.box.lo[k] = std::max(item.box.lo[k], box.lo[k]);
-        item.box.hi[k] = std::min(item.box.hi[k], box.hi[k]);
-    }
+    item.cut(place_.box(box.lo, box.hi));
 }
 
 // In the middle, across the axis that leaves the fewest pairs.
-CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell) {
-    OutlineBox all = OutlineBox::none();
-    for (const auto& items : cell.items)
-        for (const Item& item : items) all.add(item.box);
-    Splitter best;
-    best.part_left = 2;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double low = std::max(all.lo[k], cell.bounds.lo[k]);
-        const double high = std::min(all.hi[k], cell.bounds.hi[k]);
-        Splitter s{k, low + (high - low) / 2, 0, {}};
-        double below = 1;
-        double above = 1;
-        for (std::size_t i = 0; i < 2; ++i) {
-            const PoolVector<Item>& items = cell.items[i];
-            auto& [first, second] = s.counts[i];
-            for (const Item& item : items) {
-                first += item.box.lo[k] < s.at ? 1 : 0;
-                second += item.box.hi[k] >= s.at ? 1 : 0;
+CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell) const {
+    SingleBox all = SingleBox::none();
+    for (std::size_t i = 0; i < 2; ++i)
+        for (const Item& item : items_of(cell, i)) all.add(item.box());
+    all.cut(cell.bounds);
+    alignas(16) SingleBox::Four at{};
+    for (std::size_t k = 0; k < 3; ++k) at[k] = all.lo[k] + (all.hi(k) - all.lo[k]) / 2;
+    const FourFloats middle(at);
+    const FourFloats minus_middle = FourFloats(0) - middle;
+    std::array<double, 3> below{1, 1, 1};
+    std::array<double, 3> above{1, 1, 1};
+    for (std::size_t i = 0; i < 2; ++i) {
+        std::array<std::size_t, 3> begin_below{};
+        std::array<std::size_t, 3> end_below{};
+        const std::span<const Item> items = items_of(cell, i);
+        for (std::size_t first = 0; first < items.size(); first += CountsByAxis::most) {
+            CountsByAxis begins;
+            CountsByAxis ends;
+            const std::size_t count = std::min(CountsByAxis::most, items.size() - first);
+            for (const Item& item : items.subspan(first, count)) {
+                begins.add(greater(middle, FourFloats(item.box().lo)));
+                ends.add(greater(FourFloats(item.box().down), minus_middle));
             }
-            below *= static_cast<double>(first) / static_cast<double>(items.size());
-            above *= static_cast<double>(second) / static_cast<double>(items.size());
+            begins.flush(begin_below);
+            ends.flush(end_below);
         }
-        s.part_left = below + above;
-        if (s.part_left < best.part_left) best = s;
+        const auto part = [&](std::size_t n) {
+            return static_cast<double>(n) / static_cast<double>(items.size());
+        };
+        for (std::size_t k = 0; k < 3; ++k) {
+            below[k] *= part(begin_below[k]);
+            above[k] *= part(items.size() - end_below[k]);
+        }
     }
+    Splitter best{0, at[0], 2};
+    for (std::size_t k = 0; k < 3; ++k)
+        if (below[k] + above[k] < best.part_left) best = {k, at[k], below[k] + above[k]};
     return best;
 }
 
-bool CrossedFacetsFinder::divide(Cell& cell, const Splitter& splitter) {
-    const auto& [axis, at, part_left, counts] = splitter;
-    std::array<Cell, 2> children;
-    for (Cell& c : children) {
-        c.bounds = cell.bounds;
-        c.stalled = cell.stalled;
+bool CrossedFacetsFinder::divide(const Cell& cell, const Splitter& splitter) {
+    if (is_shared_ && cell.count() >= 2 * least_at_once) {
+        const Cell above = part_of(cell, splitter, true);
+        // Facets on both sides count twice: at least so many are below.
+        const std::size_t below = cell.count() - std::min(cell.count(), above.count());
+        if (std::min(above.count(), below) >= least_at_once)
+            return solve_at_once(cell, splitter, above);
     }
-    children[0].bounds.hi[axis] = children[1].bounds.lo[axis] = at;
-    for (std::size_t i = 0; i < 2; ++i) {
-        for (std::size_t k = 0; k < 2; ++k) children[k].items[i].reserve(counts[i][k]);
-        for (const Item& item : cell.items[i]) {
-            if (item.box.lo[axis] < at) children[0].items[i].push_back(item);
-            if (item.box.hi[axis] >= at) children[1].items[i].push_back(item);
-        }
-        cell.items[i] = {};
+    for (const bool above : {false, true}) {
+        Cell part = part_of(cell, splitter, above);
+        if (!solve(part)) return false;
     }
-    return solve_both(children);
+    return true;
 }
 
-// Large ones at the same time; what is found is the same, in the same order.
-bool CrossedFacetsFinder::solve_both(std::array<Cell, 2>& cells) {
-    const auto is_large = [](const Cell& c) {
-        return c.items[0].size() + c.items[1].size() >= least_at_once;
-    };
-    if (!is_shared_ || !std::ranges::all_of(cells, is_large))
-        return solve(cells[0]) && solve(cells[1]);
+// Those on one side.
+auto CrossedFacetsFinder::part_of(const Cell& cell, const Splitter& splitter, bool above) -> Cell {
+    Cell part;
+    part.bounds = cell.bounds;
+    part.stalled = cell.stalled;
+    if (above)
+        part.bounds.lo[splitter.axis] = splitter.at;
+    else
+        part.bounds.down[splitter.axis] = -splitter.at;
+    for (std::size_t i = 0; i < 2; ++i) take_part(i, part, cell, splitter, above);
+    return part;
+}
+
+// Those on one side, behind all others. Without a branch.
+void CrossedFacetsFinder::take_part(std::size_t solid, Cell& part, const Cell& cell,
+                                    const Splitter& splitter, bool above) {
+    const auto [axis, at, part_left] = splitter;
+    PoolVector<Item>& all = items_[solid];
+    const std::size_t room = cell.end[solid] + cell.count(solid);
+    if (all.size() < room) all.resize(std::max(room, all.size() + all.size() / 2));
+    Item* next = all.data() + cell.end[solid];
+    for (const Item& item : items_of(cell, solid)) {
+        const bool is_below = item.box().lo[axis] < at;
+        const bool is_above = item.box().hi(axis) >= at;
+        *next = item;
+        next->set_shared(is_below && is_above);
+        next += (above ? is_above : is_below) ? 1 : 0;
+    }
+    part.first[solid] = cell.end[solid];
+    part.end[solid] = static_cast<std::size_t>(next - all.data());
+}
+
+// Both sides at the same time, what is above by a finder of its own; what is found is the same, in
+// the same order.
+bool CrossedFacetsFinder::solve_at_once(const Cell& cell, const Splitter& splitter, Cell above) {
     SpecialPosition special(meshes_.facet_count());
     CrossedFacetsFinder other(meshes_, options_, special);
     EvaluateStats made;
     other.solids_ = solids_;
+    other.place_ = place_;
     other.stats_ = &made;
     other.is_shared_ = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto items = items_of(above, i);
+        other.items_[i].assign(items.begin(), items.end());
+        above.first[i] = 0;
+        above.end[i] = items.size();
+    }
+    Cell below = part_of(cell, splitter, false);
     std::array<bool, 2> are_solved{};
     FirstFailure failure;
-    fork_join([&] { failure.guard(1, [&] { are_solved[1] = other.solve(cells[1]); }); },
-              [&] { failure.guard(0, [&] { are_solved[0] = solve(cells[0]); }); });
+    fork_join([&] { failure.guard(1, [&] { are_solved[1] = other.solve(above); }); },
+              [&] { failure.guard(0, [&] { are_solved[0] = solve(below); }); });
     failure.rethrow();
     *stats_ += made;
     add(other);
@@ -248,15 +326,16 @@ void CrossedFacetsFinder::add(const CrossedFacetsFinder& other) {
 }
 
 bool CrossedFacetsFinder::compare(const Cell& cell) {
-    const std::size_t count = cell.items[0].size() + cell.items[1].size();
     ++stats_->mixed_leaves;
     ++stats_->filtered_leaves;
-    stats_->listed_polygons += count;
-    pairs_.start(count, cell.items[0][0].box.lo, cell.reach);
+    stats_->listed_polygons += cell.count();
+    const SingleBox& some = items_[0][cell.first[0]].box();
+    pairs_.start(cell.count(),
+                 {place_.lower(some, 0), place_.lower(some, 1), place_.lower(some, 2)}, cell.reach);
     for (const std::size_t i : second_first) {
-        for (const Item& item : cell.items[i]) {
-            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
-            pairs_.add(f.slot, f.number, item.box);
+        for (const Item& item : items_of(cell, i)) {
+            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place()];
+            pairs_.add(f.slot, f.number, item.box());
         }
         if (i == 1) pairs_.end_second();
     }
@@ -266,7 +345,7 @@ bool CrossedFacetsFinder::compare(const Cell& cell) {
     stats_->pairs_touching += pairs_.crossings().size();
     stats_->pairs_cutting += pairs_.crossings().size();
     for (const WholeFacetPairs::Crossing& c : pairs_.crossings())
-        keep(cell, places_of(cell, c.places), c.ends);
+        keep(pair_of(cell, c.places), c.ends);
     decide(cell);
     return true;
 }
@@ -276,11 +355,11 @@ void CrossedFacetsFinder::leave_out_planes(const Cell& cell) {
     planes_.clear();
     for (const std::size_t i : second_first) {
         in_planes_[i].clear();
-        for (const Item& item : cell.items[i]) {
-            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place];
+        for (const Item& item : items_of(cell, i)) {
+            const OutlinedSolid::Facet& f = solids_[i]->facets[item.place()];
             const std::uint32_t plane = special_.plane_across_axis(f.number);
             planes_.push_back(plane);
-            if (plane != 0) in_planes_[i].push_back({plane, f.number, f.slot, item.box});
+            if (plane != 0) in_planes_[i].push_back({plane, f.number, f.slot, item.box()});
         }
         std::ranges::stable_sort(in_planes_[i], {}, &SpecialPairs::InCell::plane);
     }
@@ -290,32 +369,31 @@ void CrossedFacetsFinder::leave_out_planes(const Cell& cell) {
 }
 
 void CrossedFacetsFinder::decide(const Cell& cell) {
-    for (const WholeFacetPairs::Places& pair : pairs_.doubtful()) {
+    for (const WholeFacetPairs::Places& places : pairs_.doubtful()) {
         ++stats_->doubtful_pairs;
-        const std::array places = places_of(cell, pair);
-        const auto crossing = special_.crossing(solids_[0]->facets[places[0]].number,
-                                                solids_[1]->facets[places[1]].number);
+        const Pair pair = pair_of(cell, places);
+        const auto crossing = special_.crossing(solids_[0]->facets[pair[0].place()].number,
+                                                solids_[1]->facets[pair[1].place()].number);
         if (!crossing) continue;
         ++stats_->pairs_touching;
         ++stats_->pairs_cutting;
-        keep(cell, places, crossing->ends);
+        keep(pair, crossing->ends);
     }
 }
 
-// A pair may be listed in several cells, but not where one of them is within this one. Of two parts
+// A pair may be listed in several cells, but not where one of them is in one alone. Of two parts
 // the whole facets may cross somewhere else.
-void CrossedFacetsFinder::keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
-                               const std::array<FacetCrossing::End, 2>& ends) {
+void CrossedFacetsFinder::keep(const Pair& pair, const std::array<FacetCrossing::End, 2>& ends) {
+    const std::array places{pair[0].place(), pair[1].place()};
     const std::array facets{&solids_[0]->facets[places[0]], &solids_[1]->facets[places[1]]};
-    const std::array boxes{&solids_[0]->boxes[places[0]], &solids_[1]->boxes[places[1]]};
     if (!facets[0]->whole || !facets[1]->whole) {
-        OutlineBox box = OutlineBox::none();
+        BoxSum box;
         for (const FacetCrossing::End& end : ends) box.add(end.at);
+        const BoxProbe probe(box.box());
         for (std::size_t i = 0; i < 2; ++i)
-            if (!facets[i]->whole && !boxes[i]->meets(box)) return;
+            if (!facets[i]->whole && !probe.meets(solids_[i]->boxes[places[i]])) return;
     }
-    const bool is_once = lies_within(*boxes[0], cell.bounds) || lies_within(*boxes[1], cell.bounds);
-    if (!is_once) {
+    if (pair[0].is_shared() && pair[1].is_shared()) {
         if (!known_.insert({places[0], places[1]}, 0).second) return;
         if (is_shared_) all_known_.push_back(places);
     }

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/leaf/doubles/single_box.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/special_pairs.h>
 #include <trisect/bsp/many_meshes/whole_facet_pairs.h>
@@ -45,45 +47,87 @@ public:
     [[nodiscard]] std::span<const CrossedFacets> pairs() const { return found_; }
 
 private:
-    struct Item {
-        OutlineBox box;  ///< of what may lie in the cell
-        std::uint32_t place = 0;
+    // A facet, with the box of what may lie in the cell.
+    class Item {
+    public:
+        Item() = default;
+        Item(const SingleBox& box, std::uint32_t place) : box_(box) {
+            box_.lo[3] = std::bit_cast<float>(finite + place);
+        }
+        [[nodiscard]] const SingleBox& box() const { return box_; }
+        void cut(const SingleBox& box) {
+            const float place = box_.lo[3];
+            const float shared = box_.down[3];
+            box_.cut(box);
+            box_.lo[3] = place;
+            box_.down[3] = shared;
+        }
+        [[nodiscard]] std::uint32_t place() const {
+            return std::bit_cast<std::uint32_t>(box_.lo[3]) - finite;
+        }
+        // Whether another cell may have it, too.
+        [[nodiscard]] bool is_shared() const { return box_.down[3] != 0; }
+        void set_shared(bool shared) { box_.down[3] += shared ? 1.0F : 0.0F; }
+
+    private:
+        // Added to a place: so it is the bits of a finite number, as there are fewer than 2^29.
+        static constexpr std::uint32_t finite = std::uint32_t{1} << 30;
+        SingleBox box_;
     };
-    using Items = std::array<PoolVector<Item>, 2>;
+    // Items lie behind those of the cell that it is a part of.
     struct Cell {
-        OutlineBox bounds;
-        OutlineBox reach;  ///< of what may cross
-        Items items;
+        SingleBox bounds;
+        SingleBox reach;  // of what may cross
+        std::array<std::size_t, 2> first{};
+        std::array<std::size_t, 2> end{};
         bool stalled = false;
+        [[nodiscard]] std::size_t count(std::size_t solid) const {
+            return end[solid] - first[solid];
+        }
+        [[nodiscard]] std::size_t count() const { return count(0) + count(1); }
+        [[nodiscard]] std::uint64_t pair_count() const {
+            return std::uint64_t{count(0)} * count(1);
+        }
     };
     struct Splitter {
         std::size_t axis = 0;
-        double at = 0;
+        float at = 0;
         double part_left = 1;  ///< of the pairs, on both sides together
-        std::array<std::array<std::size_t, 2>, 2> counts{};  ///< of items below and above, by solid
     };
     [[nodiscard]] bool solve(Cell& cell);
-    [[nodiscard]] bool leave_out(Cell& cell) const;
-    void draw_in(std::size_t solid, Item& item, const OutlineBox& reach) const;
-    [[nodiscard]] static Splitter splitter_of(const Cell& cell);
-    [[nodiscard]] bool divide(Cell& cell, const Splitter& splitter);
-    [[nodiscard]] bool solve_both(std::array<Cell, 2>& cells);
+    [[nodiscard]] bool leave_out(Cell& cell);
+    [[nodiscard]] std::size_t leave_out(std::size_t solid, std::span<Item> items,
+                                        const SingleBox& reach) const;
+    void draw_in(std::size_t solid, Item& item, const SingleBox& reach) const;
+    [[nodiscard]] Splitter splitter_of(const Cell& cell) const;
+    [[nodiscard]] bool divide(const Cell& cell, const Splitter& splitter);
+    [[nodiscard]] Cell part_of(const Cell& cell, const Splitter& splitter, bool above);
+    [[nodiscard]] bool solve_at_once(const Cell& cell, const Splitter& splitter, Cell above);
     void add(const CrossedFacetsFinder& other);
+    void take_part(std::size_t solid, Cell& part, const Cell& cell, const Splitter& splitter,
+                   bool above);
     [[nodiscard]] bool compare(const Cell& cell);
     void leave_out_planes(const Cell& cell);
-    [[nodiscard]] static std::array<std::uint32_t, 2> places_of(
-        const Cell& cell, const WholeFacetPairs::Places& pair) {
-        return {cell.items[0][pair[0]].place, cell.items[1][pair[1]].place};
+    [[nodiscard]] std::span<Item> items_of(const Cell& cell, std::size_t solid) {
+        return std::span(items_[solid]).subspan(cell.first[solid], cell.count(solid));
+    }
+    [[nodiscard]] std::span<const Item> items_of(const Cell& cell, std::size_t solid) const {
+        return std::span(items_[solid]).subspan(cell.first[solid], cell.count(solid));
+    }
+    using Pair = std::array<Item, 2>;
+    [[nodiscard]] Pair pair_of(const Cell& cell, const WholeFacetPairs::Places& places) const {
+        return {items_[0][cell.first[0] + places[0]], items_[1][cell.first[1] + places[1]]};
     }
     void decide(const Cell& cell);
-    void keep(const Cell& cell, const std::array<std::uint32_t, 2>& places,
-              const std::array<FacetCrossing::End, 2>& ends);
+    void keep(const Pair& pair, const std::array<FacetCrossing::End, 2>& ends);
 
     const ManyMeshes& meshes_;
     const EvaluateSettings& options_;
     SpecialPosition& position_;
     SpecialPairs special_;
     std::array<const OutlinedSolid*, 2> solids_{};
+    SinglePlace place_;                      // where both are
+    std::array<PoolVector<Item>, 2> items_;  // of a cell and of those that it is a part of
     PoolVector<CrossedFacets> found_;
     FlatMap known_;  // those that were found, where there are several cells
     PoolVector<std::array<std::uint32_t, 2>> all_known_;

@@ -973,9 +973,11 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
     const Crowd crowd = crowd_of(solids);
     if (crowd == Crowd::All || crowd == Crowd::InFirst) return true;
     const std::vector<Box> boxes = boxes_of(solids);
-    if (do_stand(boxes) || (are_few(solids) && may_touch_or_are_apart(boxes))) return true;
+    const bool few = are_few(solids);
+    if (do_stand(boxes) || (few && may_touch_or_are_apart(boxes))) return true;
     if (are_mostly_beside(*formula, solids)) return false;
-    if (!crossings_of(*formula, solids) || may_touch_or_are_apart(boxes)) return true;
+    // Few ones have been found not to touch.
+    if (!crossings_of(*formula, solids) || (!few && may_touch_or_are_apart(boxes))) return true;
     return crowd == Crowd::Near || meets_many(boxes) || are_thin(*formula, solids);
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <trisect/bsp/cells/crossings.h>
+#include <trisect/bsp/leaf/doubles/single_box.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/bsp/many_meshes/special_position.h>
 #include <trisect/kernel/support/flat_map.h>
@@ -35,7 +36,7 @@ public:
         std::uint32_t plane = 0;  ///< above 0
         std::uint32_t facet = 0;
         std::uint32_t slot = 0;
-        OutlineBox box;  ///< of its part there
+        SingleBox box;  ///< of its part there
     };
     /// What crossing() does for all pairs of facets of a plane across an axis at once: one of the
     /// first and one of the second list, which are sorted by that. Without arithmetic for most

@@ -3,12 +3,12 @@
 // Points on a segment, from one end to the other.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
 
 #include <trisect/bsp/cells/outlined_facets.h>
+#include <trisect/bsp/many_meshes/sort_few.h>
 #include <trisect/kernel/number/error_bounds.h>
 
 namespace trisect::detail {
@@ -29,8 +29,7 @@ template <class Stop, class Order>
     const double way = length > 0 ? 1 : -1;
     for (Stop& s : stops) s.along = way * vertices[s.vertex].at.c[axis];
     bool known = true;
-    // Stable sorting stays within its range, whatever the answers.
-    std::ranges::stable_sort(stops, [&](const Stop& s, const Stop& t) {
+    sort_few(stops, [&](const Stop& s, const Stop& t) {
         const double error =
             bound_slack * (vertices[s.vertex].at.error + vertices[t.vertex].at.error);
         if (has_way && std::fabs(t.along - s.along) > error) return s.along < t.along;

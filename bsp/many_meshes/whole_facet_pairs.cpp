@@ -15,6 +15,7 @@
 #include <span>
 
 #include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/four_floats.h>
 
 namespace trisect::detail {
 
@@ -22,6 +23,10 @@ namespace {
 
 // So many are listed before they are related.
 constexpr std::size_t pairs_at_once = 4096;
+
+// Singles are off by less than 2^-23 of the extent, to which the point belongs that they are taken
+// from.
+constexpr double more_than_singles = 1 + 0x1p-20;
 
 // Differences of coordinates up to this are exact.
 constexpr double widest_extent = 0x1p53;
@@ -31,13 +36,13 @@ constexpr std::array<std::uint8_t, 16> boxes_met{0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2
 
 }  // namespace
 
-void WholeFacetPairs::start(std::size_t count, const Vector3& near, const OutlineBox& reach) {
+void WholeFacetPairs::start(std::size_t count, const Vector3& near, const SingleBox& reach) {
     near_ = near;
     names_.clear();
     names_.reserve(count);
     if (facets_.size() < count) facets_.resize(count);
     second_ = 0;
-    boxes_.start(reach.lo, reach.hi);
+    boxes_.start(reach);
     probes_.clear();
     known_planes_ = {};
     pairs_.clear();
@@ -47,12 +52,12 @@ void WholeFacetPairs::start(std::size_t count, const Vector3& near, const Outlin
     box_pair_count_ = 0;
 }
 
-void WholeFacetPairs::add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box) {
+void WholeFacetPairs::add(std::uint32_t slot, std::uint32_t number, const SingleBox& box) {
     names_.push_back({slot, number});
     if (second_ == 0) {
-        boxes_.add(box.lo, box.hi);
+        boxes_.add(box);
     } else {
-        probes_.push_back(boxes_.narrow(box.lo, box.hi));
+        probes_.push_back(boxes_.narrow(box));
     }
 }
 
@@ -101,22 +106,25 @@ void WholeFacetPairs::list_met(std::size_t first) {
 
 // Of those that have a partner. False where they are too far apart.
 bool WholeFacetPairs::make_planes() {
-    Vector3 low = near_;
-    Vector3 high = near_;
+    FourFloats low(0);  // from the point near all of them
+    FourFloats high(0);
     for (std::size_t i = 0; i < names_.size(); ++i) {
         if (has_partner_[i] == 0) continue;
         const auto [slot, number] = names_[i];
-        std::array<Vector3, 3>& corners = facets_[i].corners;
-        corners = meshes_.corners(slot, number - meshes_.operands->operands[slot].first);
-        for (const Vector3& c : corners)
-            for (std::size_t k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], c[k]);
-                high[k] = std::max(high[k], c[k]);
-            }
+        Facet& f = facets_[i];
+        f.corners = meshes_.corners(slot, number - meshes_.operands->operands[slot].first);
+        for (std::size_t c = 0; c < 3; ++c) {
+            f.singles[c] = FacetRows::single_of(minus(f.corners[c], near_));
+            low = smaller(low, FourFloats(f.singles[c]));
+            high = larger(high, FourFloats(f.singles[c]));
+        }
     }
+    const auto lowest = low.numbers();
+    const auto highest = high.numbers();
     Vector3 extent;
     for (std::size_t k = 0; k < 3; ++k) {
-        extent[k] = (high[k] - low[k]) * slightly_more;
+        extent[k] =
+            (static_cast<double>(highest[k]) - static_cast<double>(lowest[k])) * more_than_singles;
         if (!(extent[k] < widest_extent)) return false;
     }
     planes_.start(extent);
@@ -128,10 +136,8 @@ bool WholeFacetPairs::make_planes() {
         Facet& f = facets_[i];
         f.plane = FilteredFacets::plane_of(f.corners, extent);
         FilteredPlane plane = f.plane;
-        std::array<Vector3, 3> corners;
-        for (std::size_t c = 0; c < 3; ++c) corners[c] = minus(f.corners[c], near_);
-        plane.origin = corners[0];
-        planes_.add(corners, plane);
+        plane.origin = minus(f.corners[0], near_);
+        planes_.add(f.singles, plane);
     }
     return true;
 }

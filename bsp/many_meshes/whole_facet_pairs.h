@@ -11,6 +11,7 @@
 
 #include <trisect/bsp/leaf/doubles/facet_rows.h>
 #include <trisect/bsp/leaf/doubles/narrow_boxes.h>
+#include <trisect/bsp/leaf/doubles/single_box.h>
 #include <trisect/bsp/leaf/doubles/triangle_relation.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 
@@ -24,9 +25,9 @@ public:
 
     /// Begins two lists, of so many facets together. `near`: a point near all of them. `reach`:
     /// boxes that meet, do so in a place that meets it.
-    void start(std::size_t count, const Vector3& near, const OutlineBox& reach);
+    void start(std::size_t count, const Vector3& near, const SingleBox& reach);
     /// Facets of the second list come first.
-    void add(std::uint32_t slot, std::uint32_t number, const OutlineBox& box);
+    void add(std::uint32_t slot, std::uint32_t number, const SingleBox& box);
     void end_second() { second_ = names_.size(); }
     /// Facets of one plane do not cross, where they have the same number: by place in the order in
     /// which they were added, 0 where nothing is known.
@@ -55,6 +56,7 @@ private:
     // Made of those that have a partner.
     struct Facet {
         std::array<Vector3, 3> corners;
+        alignas(16) std::array<FacetRows::Four, 3> singles;  // from the point near all of them
         FilteredPlane plane;
     };
     void list_box_pairs();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -29,6 +30,17 @@ public:
     /// Where a > b, a bit for each of the four.
     friend unsigned greater(FourFloats a, FourFloats b) {
         return static_cast<unsigned>(_mm_movemask_ps(_mm_cmpgt_ps(a.v_, b.v_)));
+    }
+    [[nodiscard]] std::array<float, 4> numbers() const {
+        alignas(16) std::array<float, 4> out;
+        _mm_store_ps(out.data(), v_);
+        return out;
+    }
+    /// Whole numbers, rounded towards zero. \pre they have 31 bits
+    [[nodiscard]] std::array<std::int32_t, 4> truncated() const {
+        alignas(16) std::array<std::int32_t, 4> out;
+        _mm_store_si128(reinterpret_cast<__m128i*>(out.data()), _mm_cvttps_epi32(v_));
+        return out;
     }
 
 private:
@@ -57,6 +69,12 @@ private:
         unsigned bits = 0;
         for (std::size_t i = 0; i < 4; ++i) bits |= (a.v_[i] > b.v_[i] ? 1U : 0U) << i;
         return bits;
+    }
+    [[nodiscard]] const std::array<float, 4>& numbers() const { return v_; }
+    [[nodiscard]] std::array<std::int32_t, 4> truncated() const {
+        std::array<std::int32_t, 4> out;
+        for (std::size_t i = 0; i < 4; ++i) out[i] = static_cast<std::int32_t>(v_[i]);
+        return out;
     }
 
 private:

@@ -81,37 +81,51 @@ void FacetRows::start(const Vector3& extent) {
 }
 
 void FacetRows::add(const std::array<Vector3, 3>& corners, const FilteredPlane& plane) {
+    alignas(16) std::array<Four, 3> singles;
+    for (std::size_t c = 0; c < 3; ++c) singles[c] = single_of(corners[c]);
+    add(singles, plane);
+}
+
+void FacetRows::add(const std::array<Four, 3>& corners, const FilteredPlane& plane) {
     const std::size_t i = size_++ % 4;
     if (i == 0) rows_.emplace_back();
+    const PlaneInSingles p = in_singles(plane);
     Row& r = rows_.back();
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t k = 0; k < 3; ++k)
-            r.corners[c][k][i] = static_cast<float>(scale_ * corners[c][k]);
+    Single& s = singles_.emplace_back();
+    // A power of two, so that it does not matter what was rounded before.
+    const FourFloats scale(static_cast<float>(scale_));
+    for (std::size_t c = 0; c < 3; ++c) {
+        s.numbers[c] = (FourFloats(corners[c]) * scale).numbers();
+        for (std::size_t k = 0; k < 3; ++k) r.corners[c][k][i] = s.numbers[c][k];
+        r.normal[c][i] = s.numbers[c][3] = p.normal[c];
+    }
+    r.offset[i] = p.offset;
+    r.bound[i] = p.bound;
+    s.numbers[3] = {p.offset, p.bound, p.tilt, 0};
+}
+
+FacetRows::PlaneInSingles FacetRows::in_singles(const FilteredPlane& plane) const {
     const Vector3& n = plane.normal;
     const double largest = std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])});
+    PlaneInSingles out;
     if (!(largest > 0)) {
-        r.bound[i] = std::numeric_limits<float>::infinity();
-        add_single(r, i, 0);
-        return;
+        out.bound = std::numeric_limits<float>::infinity();
+        return out;
     }
+    // A product with it is off by a last place more than a quotient, of doubles.
+    const double per_largest = 1 / largest;
     double offset = 0;
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-        const double component = n[k] / largest;
-        r.normal[k][i] = static_cast<float>(component);
+        const double component = n[k] * per_largest;
+        out.normal[k] = static_cast<float>(component);
         offset += component * (scale_ * plane.origin[k]);
         sum += std::fabs(component) * extent_[k];
     }
-    r.offset[i] = static_cast<float>(offset);
-    r.bound[i] = above(0x1p-20 * sum + plane.bound / largest * scale_);
-    add_single(r, i, above(0x1p-22 + 0x1p-50 * plane.slope / largest));
-}
-
-void FacetRows::add_single(const Row& r, std::size_t i, float tilt) {
-    Single& s = singles_.emplace_back();
-    for (std::size_t c = 0; c < 3; ++c)
-        s.numbers[c] = {r.corners[c][0][i], r.corners[c][1][i], r.corners[c][2][i], r.normal[c][i]};
-    s.numbers[3] = {r.offset[i], r.bound[i], tilt, 0};
+    out.offset = static_cast<float>(offset);
+    out.bound = above(0x1p-20 * sum + plane.bound * per_largest * scale_);
+    out.tilt = above(0x1p-22 + 0x1p-50 * plane.slope * per_largest);
+    return out;
 }
 
 FacetRows::Probe FacetRows::probe(std::size_t facet) const {

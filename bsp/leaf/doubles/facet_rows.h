@@ -20,13 +20,19 @@ public:
     /// For a leaf whose points differ by no more than this, see FilteredFacets::extent().
     void start(const Vector3& extent);
     void add(const std::array<Vector3, 3>& corners, const FilteredPlane& plane);
+    using Four = std::array<float, 4>;
+    /// Of corners as single_of() has them, aligned to 16 bytes.
+    void add(const std::array<Four, 3>& corners, const FilteredPlane& plane);
+    [[nodiscard]] static Four single_of(const Vector3& corner) {
+        return {static_cast<float>(corner[0]), static_cast<float>(corner[1]),
+                static_cast<float>(corner[2]), 0};
+    }
     /// A place for a facet that is never looked at.
     void skip() {
         if (size_++ % 4 == 0) rows_.emplace_back();
         singles_.emplace_back();
     }
 
-    using Four = std::array<float, 4>;
     /// A facet to be compared with the others: every number four times.
     struct alignas(16) Probe {
         std::array<std::array<Four, 3>, 3> corners;
@@ -82,7 +88,13 @@ private:
     struct alignas(64) Single {
         std::array<Four, 4> numbers;
     };
-    void add_single(const Row& r, std::size_t i, float tilt);
+    struct PlaneInSingles {
+        std::array<float, 3> normal{};
+        float offset = 0;
+        float bound = 0;
+        float tilt = 0;
+    };
+    [[nodiscard]] PlaneInSingles in_singles(const FilteredPlane& plane) const;
 
     std::vector<Row> rows_;
     std::vector<Single> singles_;

@@ -11,7 +11,8 @@
 #include <span>
 #include <vector>
 
-#include <trisect/kernel/number/vector3.h>
+#include <trisect/bsp/leaf/doubles/single_box.h>
+#include <trisect/kernel/support/four_floats.h>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -25,29 +26,30 @@ namespace trisect::detail {
 class NarrowBoxes {
 public:
     /// Boxes that meet, do so in a place that meets this box.
-    void start(const Vector3& lo, const Vector3& hi) {
+    void start(const SingleBox& place) {
         size_ = 0;
         blocks_.clear();
-        lo_ = lo;
+        lo_ = place.lo;
         for (std::size_t k = 0; k < 3; ++k) {
-            const double extent = hi[k] - lo[k];
-            scale_[k] = extent > 0 && extent < 0x1p1000 ? most / extent : 0;
+            const float extent = place.hi(k) - place.lo[k];
+            scale_[k] = extent > 0 && extent < 0x1p120F ? most / extent : 0;
         }
     }
-    void add(const Vector3& lo, const Vector3& hi) {
+    void add(const SingleBox& box) {
         const std::size_t i = size_++ % sixteen;
         if (i == 0) blocks_.emplace_back();
         Block& b = blocks_.back();
-        const Ends ends = narrow(lo, hi);
+        const Ends ends = narrow(box);
         for (std::size_t k = 0; k < 6; ++k) b[k][i] = ends[k];
     }
     [[nodiscard]] std::size_t size() const { return size_; }
 
     /// Three lower and three upper ends.
     using Ends = std::array<std::int16_t, 6>;
-    [[nodiscard]] Ends narrow(const Vector3& lo, const Vector3& hi) const {
-        return {narrow(lo, 0), narrow(lo, 1), narrow(lo, 2),
-                narrow(hi, 0), narrow(hi, 1), narrow(hi, 2)};
+    [[nodiscard]] Ends narrow(const SingleBox& box) const {
+        const auto lo = narrow(FourFloats(box.lo));
+        const auto hi = narrow(FourFloats(0) - FourFloats(box.down));
+        return {lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]};
     }
     /// 64 boxes a word, a bit for each that meets that one.
     [[nodiscard]] std::size_t word_count() const { return (blocks_.size() + 3) / 4; }
@@ -59,7 +61,7 @@ public:
 
 private:
     static constexpr std::size_t sixteen = 16;
-    static constexpr double most = 0x7fff;
+    static constexpr float most = 0x7fff;
     struct alignas(16) Row {
         std::array<std::int16_t, sixteen> of{};
         [[nodiscard]] std::int16_t& operator[](std::size_t i) { return of[i]; }
@@ -75,10 +77,11 @@ private:
         }
         [[nodiscard]] Row& operator[](std::size_t k) { return rows[k]; }
     };
-    [[nodiscard]] std::int16_t narrow(const Vector3& p, std::size_t k) const {
-        const double at = (p[k] - lo_[k]) * scale_[k];
-        return static_cast<std::int16_t>(
-            static_cast<std::int32_t>(std::min(std::max(at, 0.0), most)));
+    [[nodiscard]] std::array<std::int16_t, 3> narrow(FourFloats ends) const {
+        const FourFloats at = (ends - FourFloats(lo_)) * FourFloats(scale_);
+        const auto whole = smaller(larger(at, FourFloats(0)), FourFloats(most)).truncated();
+        return {static_cast<std::int16_t>(whole[0]), static_cast<std::int16_t>(whole[1]),
+                static_cast<std::int16_t>(whole[2])};
     }
     [[nodiscard]] static unsigned meeting(const Block& b, const Ends& box) {
 #if defined(__SSE2__)
@@ -109,8 +112,8 @@ private:
     }
 
     std::vector<Block> blocks_;
-    Vector3 lo_{};
-    Vector3 scale_{};
+    alignas(16) SingleBox::Four lo_{};
+    alignas(16) SingleBox::Four scale_{};
     std::size_t size_ = 0;
 };
 

@@ -4,7 +4,21 @@
 
 #include <algorithm>
 
+#include <trisect/bsp/many_meshes/outlines/box_sum.h>
+
 namespace trisect::detail {
+
+namespace {
+
+// Of corners, which have no errors.
+OutlineBox box_of(const Vector3& a, const Vector3& b, const Vector3& c) {
+    BoxSum out({a, a});
+    out.add({b, b});
+    out.add({c, c});
+    return out.box();
+}
+
+}  // namespace
 
 void OutlineStore::reserve(const ManyMeshes& meshes) {
     const std::size_t facets = meshes.facet_count();
@@ -43,21 +57,28 @@ OutlineStore::Solid OutlineStore::add_operand(const ManyMeshes& meshes, std::uin
     const auto vertex = static_cast<std::uint32_t>(out.vertices);
     const auto edge = static_cast<std::uint32_t>(out.edges);
     vertices_.resize(out.vertices + mesh.points.size());
+    OutlineVertex* const vertices = vertices_.data() + out.vertices;
     for (std::size_t v = 0; v < mesh.points.size(); ++v)
-        vertices_[out.vertices + v].at = {mesh.points[v].doubles(), 0.0};
-    for (std::uint32_t f = 0; f < mesh.triangles.size(); ++f) {
+        vertices[v].at = {mesh.points[v].doubles(), 0.0};
+    const std::size_t count = mesh.triangles.size();
+    facets_.resize(out.facets + count);
+    boxes_.resize(out.facets + count);
+    edges_.resize(out.edges + 3 * count);
+    Edge* next_edge = edges_.data() + out.edges;
+    BoxSum all;
+    for (std::uint32_t f = 0; f < count; ++f) {
         const auto& t = mesh.triangles[f];
-        facets_.push_back({first + f, slot, edge + 3 * f, 3, true});
-        OutlineBox& box = boxes_.emplace_back(OutlineBox::none());
+        facets_[out.facets + f] = {first + f, slot, edge + 3 * f, 3, true};
         for (std::uint32_t i = 0; i < 3; ++i) {
-            edges_.push_back({vertex + t[i], vertex + t[i == 2 ? 0 : i + 1], EdgeOrigin(i)});
-            OutlineVertex& v = vertices_[vertex + t[i]];
-            v.facets[0] = first + f;
-            v.which = static_cast<std::int8_t>(i);
-            box.add(v.at);
+            *next_edge++ = {vertex + t[i], vertex + t[i == 2 ? 0 : i + 1], EdgeOrigin(i)};
+            vertices[t[i]].facets[0] = first + f;
+            vertices[t[i]].which = static_cast<std::int8_t>(i);
         }
-        out.box.add(box);
+        OutlineBox& box = boxes_[out.facets + f];
+        box = box_of(vertices[t[0]].at.c, vertices[t[1]].at.c, vertices[t[2]].at.c);
+        all.add(box);
     }
+    out.box = all.box();
     return out;
 }
 

@@ -127,9 +127,7 @@ struct OutlineBox {
         }
         return out;
     }
-
-private:
-    // Of a coordinate after the error is added; nothing is rounded where there is none.
+    /// Of a coordinate after the error is added; nothing is rounded where there is none.
     [[nodiscard]] static double rounding_of(const Approximation& p) {
         return p.error == 0 ? 0 : 0x1p-51;
     }

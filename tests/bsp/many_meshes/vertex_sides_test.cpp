@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Vertices that hang together (vertex_sides.h), and items by numbers (buckets.h), against naive
-// ones.
+// Vertices that hang together (vertex_sides.h), items by numbers (buckets.h) and stable sorts
+// (sort_few.h), against naive ones.
 
 #include <trisect/bsp/many_meshes/buckets.h>
+#include <trisect/bsp/many_meshes/sort_few.h>
 #include <trisect/bsp/many_meshes/vertex_sides.h>
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <map>
 #include <random>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -19,44 +22,50 @@
 namespace {
 
 using trisect::detail::Buckets;
+using trisect::detail::sort_few;
 using trisect::detail::VertexSides;
 using Side = VertexSides::Side;
 
-TEST(VertexSides, JoinWhatIsListedAnewInEachTurn) {
+TEST(VertexSides, JoinWhatIsInUse) {
     std::mt19937 random(3);
     VertexSides sides;
     for (std::uint32_t turn = 1; turn < 30; ++turn) {
-        const std::uint32_t count = 40 * turn;
-        std::uniform_int_distribution<std::uint32_t> any(0, count - 1);
-        sides.start(count);
-        sides.start_list();
-        std::set<std::uint32_t> listed;
-        std::vector<std::uint32_t> part(count);  // the least of each, by relabelling
-        for (std::uint32_t v = 0; v < count; ++v) part[v] = v;
+        const std::uint32_t first = 13 * (turn % 4);
+        const std::uint32_t count = 37 * turn;
+        std::uniform_int_distribution<std::uint32_t> any(first, first + count - 1);
+        sides.start(first + count + 9);
+        sides.start_list(0, first);
+        sides.start_list(first, first + count);
+        std::set<std::uint32_t> used;
+        std::vector<std::uint32_t> part(first + count);  // the least of each, by relabelling
+        for (std::uint32_t v = 0; v < part.size(); ++v) part[v] = v;
         for (std::uint32_t i = 0; i < count / 2; ++i) {
             const std::uint32_t a = any(random);
             const std::uint32_t b = any(random);
-            sides.list(a);
-            sides.list(b);
-            listed.insert({a, b});
+            sides.use(a);
+            sides.use(b);
+            used.insert({a, b});
             sides.join(a, b);
+            EXPECT_TRUE(sides.are_joined(a, a));
             const auto [low, high] = std::minmax(part[a], part[b]);
             std::ranges::replace(part, std::uint32_t{high}, std::uint32_t{low});
         }
-        EXPECT_EQ(sides.listed().size(), listed.size());
-        for (const std::uint32_t v : listed) {
-            EXPECT_EQ(sides.root(v), part[v]);
+        sides.list();
+        EXPECT_TRUE(std::ranges::equal(sides.listed(), used));
+        for (const std::uint32_t v : used) {
+            EXPECT_EQ(sides.root_of(v), part[v]);
             EXPECT_EQ(sides.of(v), Side::Unknown);
         }
-        const std::uint32_t first = *listed.begin();
-        EXPECT_TRUE(sides.mark(first, Side::Open));
-        EXPECT_TRUE(sides.mark(first, Side::Open));
-        EXPECT_FALSE(sides.mark(first, Side::Closed));
-        // A second list keeps what the first one has.
-        sides.start_list();
-        sides.list(first);
-        EXPECT_TRUE(sides.listed().empty());
-        EXPECT_EQ(sides.of(first), Side::Open);
+        const std::uint32_t some = *used.begin();
+        EXPECT_TRUE(sides.mark(some, Side::Open));
+        EXPECT_TRUE(sides.mark(some, Side::Open));
+        EXPECT_FALSE(sides.mark(some, Side::Closed));
+        // Vertices of another list keep what they have.
+        sides.start_list(first + count, first + count + 9);
+        sides.use(first + count + 8);
+        sides.list();
+        EXPECT_EQ(sides.listed().size(), 1U);
+        EXPECT_EQ(sides.of(some), Side::Open);
     }
 }
 
@@ -81,6 +90,22 @@ TEST(Buckets, HaveItemsInTheOrderInWhichTheyCame) {
             EXPECT_TRUE(std::ranges::equal(items, naive[key]));
         }
     }
+}
+
+TEST(SortFew, IsStable) {
+    std::mt19937 random(5);
+    for (std::size_t count = 0; count < 40; ++count)
+        for (int turn = 0; turn < 20; ++turn) {
+            std::vector<std::pair<int, int>> items;
+            for (std::size_t i = 0; i < count; ++i)
+                items.emplace_back(std::uniform_int_distribution(0, 5)(random),
+                                   static_cast<int>(i));
+            std::vector<std::pair<int, int>> naive = items;
+            std::ranges::sort(naive);
+            sort_few(std::span(items),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+            EXPECT_EQ(items, naive);
+        }
 }
 
 }  // namespace

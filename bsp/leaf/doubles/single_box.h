@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// SingleBox: a box in single precision.
+// Its ends are compared three at once, without a branch.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/four_floats.h>
+
+namespace trisect::detail {
+
+/// Closed. The fourth number of either end is the caller's; it must be finite.
+struct alignas(16) SingleBox {
+    using Four = std::array<float, 4>;
+    Four lo{};
+    Four down{};  ///< upper ends, with their signs turned: so a box grows as both get smaller
+
+    [[nodiscard]] static SingleBox all_of(float end) {
+        return {{-end, -end, -end, 0}, {-end, -end, -end, 0}};
+    }
+    /// A box that any other one enlarges.
+    [[nodiscard]] static SingleBox none() { return all_of(-infinity); }
+    [[nodiscard]] static SingleBox everywhere() { return all_of(infinity); }
+
+    [[nodiscard]] float hi(std::size_t axis) const { return -down[axis]; }
+    void add(const SingleBox& b) {
+        lo = smaller(FourFloats(lo), FourFloats(b.lo)).numbers();
+        down = smaller(FourFloats(down), FourFloats(b.down)).numbers();
+    }
+    /// The part in another one.
+    void cut(const SingleBox& b) {
+        lo = larger(FourFloats(lo), FourFloats(b.lo)).numbers();
+        down = larger(FourFloats(down), FourFloats(b.down)).numbers();
+    }
+    [[nodiscard]] bool contains(const SingleBox& b) const {
+        return ((greater(FourFloats(lo), FourFloats(b.lo)) |
+                 greater(FourFloats(down), FourFloats(b.down))) &
+                axes) == 0;
+    }
+    [[nodiscard]] bool meets(const SingleBox& b) const {
+        const FourFloats zero(0);
+        return ((greater(FourFloats(lo), zero - FourFloats(b.down)) |
+                 greater(FourFloats(down), zero - FourFloats(b.lo))) &
+                axes) == 0;
+    }
+
+    static constexpr unsigned axes = 7;  ///< bits of what is compared of four numbers
+    static constexpr float infinity = std::numeric_limits<float>::infinity();
+};
+
+/// Takes boxes in doubles to single precision: from the middle of a place, rounded outwards. What
+/// is far out of the place is drawn in to some way from it, so that boxes that meet in the place
+/// still do.
+class SinglePlace {
+public:
+    SinglePlace() = default;
+    SinglePlace(const Vector3& lo, const Vector3& hi) {
+        double extent = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle_[k] = lo[k] + (hi[k] - lo[k]) / 2;
+            extent = std::max(extent, hi[k] - lo[k]);
+        }
+        // Twice as far from the middle as the place reaches. What is within that is rounded by
+        // 2^-24 of it, and once more when the margin is taken off.
+        farthest_ = static_cast<float>(extent);
+        margin_ = 0x1p-22F * farthest_;
+    }
+    [[nodiscard]] SingleBox box(const Vector3& lo, const Vector3& hi) const {
+        return {drawn_in(singles(minus(lo, middle_))), drawn_in(singles(minus(middle_, hi)))};
+    }
+    /// In doubles, off by no more than their rounding.
+    [[nodiscard]] double lower(const SingleBox& b, std::size_t axis) const {
+        return middle_[axis] + static_cast<double>(b.lo[axis]);
+    }
+    [[nodiscard]] double upper(const SingleBox& b, std::size_t axis) const {
+        return middle_[axis] - static_cast<double>(b.down[axis]);
+    }
+
+private:
+    [[nodiscard]] SingleBox::Four drawn_in(FourFloats ends) const {
+        return (larger(smaller(ends, FourFloats(farthest_)), FourFloats(-farthest_)) -
+                FourFloats(margin_))
+            .numbers();
+    }
+    [[nodiscard]] static FourFloats singles(const Vector3& v) {
+        alignas(16) const SingleBox::Four out{static_cast<float>(v[0]), static_cast<float>(v[1]),
+                                              static_cast<float>(v[2]), 0};
+        return FourFloats(out);
+    }
+
+    Vector3 middle_{};
+    float farthest_ = 0;
+    float margin_ = 0;
+};
+
+}  // namespace trisect::detail
