@@ -19,11 +19,28 @@ namespace trisect {
 
 using IndexLoop = std::vector<std::uint32_t>;
 
+/// Points by their doubles; what these leave open is computed when it is needed.
+class RoundedPoints {
+public:
+    RoundedPoints() = default;
+    RoundedPoints(const RoundedPoints&) = delete;
+    RoundedPoints& operator=(const RoundedPoints&) = delete;
+    virtual ~RoundedPoints() = default;
+    /// Correctly rounded coordinates, and how far they may be off: 0 where they are the lattice
+    /// point itself.
+    [[nodiscard]] virtual std::span<const Approximation> nearest() const = 0;
+    [[nodiscard]] virtual HomogeneousPoint homogeneous(std::uint32_t i) const = 0;
+    /// The exact order along a coordinate axis: -1, 0 or 1.
+    [[nodiscard]] virtual int compare_along(std::uint32_t a, std::uint32_t b, int axis) const = 0;
+};
+
 /// Points of one plane, projected along its dominant axis and seen from above. All answers are
 /// exact: doubles with an error bound first, integers otherwise.
 class PlaneProjection {
 public:
     PlaneProjection(const Plane& plane, std::span<const Point> points);
+    /// The points must live as long as the projection.
+    PlaneProjection(const Plane& plane, const RoundedPoints& points);
 
     /// Rounded coordinates of a point in the projection.
     [[nodiscard]] double u(std::uint32_t i) const { return rounded(i, axes_.u); }
@@ -31,7 +48,9 @@ public:
     /// Lexicographic order in the projection.
     [[nodiscard]] std::strong_ordering compare(std::uint32_t a, std::uint32_t b) const;
     /// Whether rounded coordinates are the exact ones.
-    [[nodiscard]] bool is_lattice(std::uint32_t i) const { return points_[i].is_lattice(); }
+    [[nodiscard]] bool is_lattice(std::uint32_t i) const {
+        return rounded_ != nullptr ? nearest_[i].error == 0 : points_[i].is_lattice();
+    }
     /// 1 when a, b, c turn left, 0 when they lie on one line.
     [[nodiscard]] int orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
@@ -50,11 +69,20 @@ public:
 
 private:
     [[nodiscard]] double rounded(std::uint32_t i, int axis) const {
-        return points_[i].approximation().c[static_cast<std::size_t>(axis)];
+        return approximation(i).c[static_cast<std::size_t>(axis)];
     }
+    [[nodiscard]] const Approximation& approximation(std::uint32_t i) const {
+        return rounded_ != nullptr ? nearest_[i] : points_[i].approximation();
+    }
+    [[nodiscard]] HomogeneousPoint homogeneous(std::uint32_t i) const {
+        return rounded_ != nullptr ? rounded_->homogeneous(i) : points_[i].homogeneous();
+    }
+    [[nodiscard]] LatticePoint lattice(std::uint32_t i) const;
     [[nodiscard]] int lattice_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
     std::span<const Point> points_;
+    const RoundedPoints* rounded_ = nullptr;  // in place of these
+    std::span<const Approximation> nearest_;
     Axes axes_;
 };
 
@@ -78,8 +106,9 @@ public:
 
     /// O(n log n). \pre the loops bound a region to their left and its points are on the plane.
     /// \throw Error Internal when they do not and it shows.
-    PlanarLoops(const Plane& plane, std::span<const Point> points,
-                std::span<const IndexLoop> loops);
+    PlanarLoops(const Plane& plane, std::span<const Point> points, std::span<const IndexLoop> loops)
+        : PlanarLoops(PlaneProjection(plane, points), loops) {}
+    PlanarLoops(const PlaneProjection& projection, std::span<const IndexLoop> loops);
 
     [[nodiscard]] std::size_t corner_count() const { return corners_.size(); }
     [[nodiscard]] std::span<const Corner> corners() const { return corners_; }

@@ -33,6 +33,10 @@ using IndexTriangle = std::array<std::uint32_t, 3>;
                                                      std::span<const Point> points,
                                                      std::span<const IndexLoop> loops);
 
+/// The same for points that were projected already.
+[[nodiscard]] std::vector<IndexTriangle> triangulate(const PlaneProjection& projection,
+                                                     std::span<const IndexLoop> loops);
+
 /// The triangles of a face; entries are indices of vertices of the Brep.
 [[nodiscard]] std::vector<IndexTriangle> triangulate(const Brep& brep, FaceId face);
 

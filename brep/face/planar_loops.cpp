@@ -28,6 +28,15 @@ namespace trisect {
 PlaneProjection::PlaneProjection(const Plane& plane, std::span<const Point> points)
     : points_(points), axes_(axes_of(plane)) {}
 
+PlaneProjection::PlaneProjection(const Plane& plane, const RoundedPoints& points)
+    : rounded_(&points), nearest_(points.nearest()), axes_(axes_of(plane)) {}
+
+LatticePoint PlaneProjection::lattice(std::uint32_t i) const {
+    if (rounded_ == nullptr) return points_[i].lattice();
+    const auto& c = nearest_[i].c;
+    return {Coordinate(c[0]), Coordinate(c[1]), Coordinate(c[2])};
+}
+
 PlaneProjection::Axes PlaneProjection::axes_of(const Plane& plane, bool from_below) {
     const int k = plane.dominant_axis();
     Axes axes{(k + 1) % 3, (k + 2) % 3};
@@ -36,20 +45,21 @@ PlaneProjection::Axes PlaneProjection::axes_of(const Plane& plane, bool from_bel
 }
 
 std::strong_ordering PlaneProjection::compare(std::uint32_t a, std::uint32_t b) const {
+    if (rounded_ != nullptr) {
+        const int along_u = rounded_->compare_along(a, b, axes_.u);
+        return (along_u != 0 ? along_u : rounded_->compare_along(a, b, axes_.v)) <=> 0;
+    }
     if (const auto c = compare_coordinate(points_[a], points_[b], axes_.u); c != 0) return c;
     return compare_coordinate(points_[a], points_[b], axes_.v);
 }
 
 int PlaneProjection::orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    const Point& p = points_[a];
-    const Point& q = points_[b];
-    const Point& r = points_[c];
     if (const int s =
-            filtered_orientation(p.approximation(), q.approximation(), r.approximation(), axes_);
+            filtered_orientation(approximation(a), approximation(b), approximation(c), axes_);
         s != 0)
         return s;
-    if (p.is_lattice() && q.is_lattice() && r.is_lattice()) return lattice_orientation(a, b, c);
-    return exact_orientation(p.homogeneous(), q.homogeneous(), r.homogeneous(), axes_);
+    if (is_lattice(a) && is_lattice(b) && is_lattice(c)) return lattice_orientation(a, b, c);
+    return exact_orientation(homogeneous(a), homogeneous(b), homogeneous(c), axes_);
 }
 
 // (a - c) × (b - c) in doubles, or 0 for unknown. A difference is off by the errors of its
@@ -77,7 +87,7 @@ int PlaneProjection::filtered_orientation(const Approximation& a, const Approxim
 
 int PlaneProjection::lattice_orientation(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const auto flat = [&](std::uint32_t p) {
-        return detail::flat_corner(points_[p].lattice(), axes_.u, axes_.v);
+        return detail::flat_corner(lattice(p), axes_.u, axes_.v);
     };
     return detail::exact_turn(flat(c), flat(a), flat(b));
 }
@@ -105,9 +115,8 @@ int PlaneProjection::exact_orientation(const HomogeneousPoint& a, const Homogene
     return (times(minor(a, b), c) + times(minor(b, c), a) + times(minor(c, a), b)).sign();
 }
 
-PlanarLoops::PlanarLoops(const Plane& plane, std::span<const Point> points,
-                         std::span<const IndexLoop> loops)
-    : projection_(plane, points) {
+PlanarLoops::PlanarLoops(const PlaneProjection& projection, std::span<const IndexLoop> loops)
+    : projection_(projection) {
     for (const IndexLoop& loop : loops) {
         const auto first = static_cast<std::uint32_t>(corners_.size());
         const auto n = static_cast<std::uint32_t>(loop.size());

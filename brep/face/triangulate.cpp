@@ -49,9 +49,8 @@ using Index = std::uint32_t;
 
 class SweepTriangulator {
 public:
-    SweepTriangulator(const Plane& plane, std::span<const Point> points,
-                      std::span<const IndexLoop> loops)
-        : figure_(plane, points, loops),
+    SweepTriangulator(const PlaneProjection& projection, std::span<const IndexLoop> loops)
+        : figure_(projection, loops),
           line_(figure_),
           region_of_(figure_.corner_count(), decltype(line_)::none) {}
 
@@ -256,12 +255,10 @@ private:
 };
 
 // A single loop with few corners, all at different places: ears. Nothing when it is not one.
-std::optional<std::vector<IndexTriangle>> cut_small(const Plane& plane,
-                                                    std::span<const Point> points,
+std::optional<std::vector<IndexTriangle>> cut_small(const PlaneProjection& projection,
                                                     std::span<const Index> loop) {
     const std::size_t n = loop.size();
     if (n > detail::small_polygon_limit) return {};
-    const PlaneProjection projection(plane, points);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (projection.compare(loop[i], loop[j]) == 0) return {};
@@ -286,9 +283,7 @@ std::optional<std::vector<IndexTriangle>> cut_small(const Plane& plane,
 
 // A simple loop that turns left at every corner is convex. (A loop that touches itself has a
 // corner that does not.)
-bool is_strictly_convex(const Plane& plane, std::span<const Point> points,
-                        std::span<const Index> loop) {
-    const PlaneProjection projection(plane, points);
+bool is_strictly_convex(const PlaneProjection& projection, std::span<const Index> loop) {
     const std::size_t n = loop.size();
     for (std::size_t i = 0; i < n; ++i)
         if (projection.orientation(loop[i], loop[(i + 1) % n], loop[(i + 2) % n]) <= 0)
@@ -309,6 +304,11 @@ std::vector<IndexTriangle> cut_convex(std::span<const Index> loop) {
 
 std::vector<IndexTriangle> triangulate(const Plane& plane, std::span<const Point> points,
                                        std::span<const IndexLoop> loops) {
+    return triangulate(PlaneProjection(plane, points), loops);
+}
+
+std::vector<IndexTriangle> triangulate(const PlaneProjection& projection,
+                                       std::span<const IndexLoop> loops) {
     TRISECT_EXPECTS(!loops.empty(), "a face has an outer loop");
     for (const auto& loop : loops)
         TRISECT_EXPECTS(loop.size() >= (&loop == loops.data() ? 3U : 2U),
@@ -316,10 +316,10 @@ std::vector<IndexTriangle> triangulate(const Plane& plane, std::span<const Point
     if (loops.size() == 1) {
         const IndexLoop& loop = loops[0];
         if (loop.size() == 3) return cut_convex(loop);
-        if (auto triangles = cut_small(plane, points, loop)) return *std::move(triangles);
-        if (is_strictly_convex(plane, points, loop)) return cut_convex(loop);
+        if (auto triangles = cut_small(projection, loop)) return *std::move(triangles);
+        if (is_strictly_convex(projection, loop)) return cut_convex(loop);
     }
-    return SweepTriangulator(plane, points, loops).run();
+    return SweepTriangulator(projection, loops).run();
 }
 
 std::vector<IndexTriangle> triangulate(const Brep& brep, FaceId face) {

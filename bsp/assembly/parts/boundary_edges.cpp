@@ -31,6 +31,7 @@
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/pool_allocator.h>
+#include <trisect/kernel/support/radix_sort.h>
 
 namespace trisect::detail {
 
@@ -241,7 +242,7 @@ void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> e
 namespace {
 
 // Fewer edges are not worth a part.
-constexpr std::size_t least_edges = 16384;
+constexpr std::size_t least_edges = 8192;
 
 // Calls work(begin, end) for parts of the edges; those of a facet stay together.
 template <class Work>
@@ -269,7 +270,7 @@ public:
         list_candidates();
         make_normals(threads);
         find_pairs(threads);
-        find_whole_facets();
+        find_whole_facets(threads);
         keep_crossings();
         for (const auto& [e, f] : pairs_)
             if (gone_[e] != 0) join(edges_[e].facet, edges_[f].facet);
@@ -402,13 +403,13 @@ private:
     }
 
     // Facets that pass through as they are have no edges here.
-    void find_whole_facets() {
+    void find_whole_facets(std::uint32_t threads) {
         BoundaryEdges inside;
         for (const auto& [e, f] : pairs_)
             if (parts_.facets[as_index(edges_[e].facet)].source ==
                 parts_.facets[as_index(edges_[f].facet)].source)
                 inside.push_back(edges_[e]);
-        whole_ = whole_facets_on(parts_, inside);
+        whole_ = whole_facets_on(parts_, inside, threads);
         for (const WholeFacetEdge& w : whole_) crowded_.push_back(w.ends);
     }
 
@@ -560,7 +561,7 @@ public:
     [[nodiscard]] std::span<const Passage> uncertain() const { return uncertain_; }
 
 private:
-    using Ends = std::vector<std::pair<PointId, std::size_t>>;
+    using Ends = PoolVector<std::pair<PointId, std::size_t>>;
 
     // Other threads may keep it at the same time. What is found here does not depend on that, only
     // how much is looked at.
@@ -594,8 +595,8 @@ private:
             by_from_.emplace_back(edges_[i].from, i);
             by_to_.emplace_back(edges_[i].to, i);
         }
-        std::sort(by_from_.begin(), by_from_.end());
-        std::sort(by_to_.begin(), by_to_.end());
+        sort(by_from_);
+        sort(by_to_);
         const std::size_t n = by_from_.size();
         for (std::size_t k = 0; k < n; ++k) {
             const auto [p, out] = by_from_[k];
@@ -612,6 +613,13 @@ private:
                 add_passages_of_slit(k);
             }
         }
+    }
+
+    // Those of one point stay in the order of the edges.
+    static void sort(Ends& ends) {
+        constexpr std::size_t few = 256;
+        if (ends.size() < few) return std::sort(ends.begin(), ends.end());
+        radix_sort(ends, [](const auto& end) { return static_cast<std::uint64_t>(end.first); });
     }
 
     void add_passage(std::size_t in, std::size_t out) {

@@ -10,11 +10,14 @@
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 
 #include <algorithm>
+#include <array>
 #include <tuple>
+#include <vector>
 
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
@@ -56,53 +59,88 @@ bool cross_straight(std::span<const FacetEdge> edges) {
     return false;
 }
 
-PoolVector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
-                                           std::span<const BoundaryEdge> edges) {
-    // An edge by its vertices in the mesh, the smaller one first.
-    struct MeshEdge {
-        std::size_t table;
-        std::uint32_t low;
-        std::uint32_t high;
-        std::uint64_t ends;
-        bool low_is_first;  // of the points
-        [[nodiscard]] auto key() const { return std::tuple(table, low, high); }
-    };
+namespace {
+
+// An edge of a facet's outline by its vertices in the mesh, the smaller one first.
+struct MeshEdge {
+    std::size_t table = 0;
+    std::uint32_t low = 0;
+    std::uint32_t high = 0;
+    std::uint64_t ends = 0;
+    bool low_is_first = false;  // of the points
+    [[nodiscard]] auto key() const { return std::tuple(table, low, high); }
+};
+
+// Those edges that are edges of their facets' mesh, by mesh.
+std::vector<MeshEdge> edges_of_meshes(const BoundaryParts& parts,
+                                      std::span<const BoundaryEdge> edges) {
     const Workbench& bench = parts.bench;
-    std::vector<MeshEdge> wanted;
+    std::vector<MeshEdge> out;
     for (const BoundaryEdge& e : edges) {
         if (!bench.is_corner(e.from) || !bench.is_corner(e.to)) continue;
         const Source* const source = parts.facets[as_index(e.facet)].source;
         const auto [s, v] = bench.corner_name(e.from);
         const auto [t, w] = bench.corner_name(e.to);
         if (s != source || t != source) continue;
-        wanted.push_back({parts.table_of(source), std::min(v, w), std::max(v, w), ends_of(e),
-                          (v < w) == (e.from < e.to)});
+        out.push_back({parts.table_of(source), std::min(v, w), std::max(v, w), ends_of(e),
+                       (v < w) == (e.from < e.to)});
     }
-    std::ranges::sort(wanted, {}, &MeshEdge::key);
-    PoolVector<WholeFacetEdge> out;
-    for (auto first = wanted.begin(); first != wanted.end();) {
-        const std::size_t table = first->table;
-        const auto end = std::ranges::find_if(first, wanted.end(),
-                                              [&](const MeshEdge& e) { return e.table != table; });
-        const Source* const source = parts.sources[table].source();
-        const LatticeMesh& mesh = source->mesh();
-        std::vector<bool> is_end(mesh.points.size(), false);
-        for (auto e = first; e != end; ++e) is_end[e->low] = is_end[e->high] = true;
-        parts.sources[table].for_each_whole([&](std::uint32_t facet, bool flipped) {
-            const auto& corners = mesh.triangles[facet];
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t v = corners[i];
-                const std::uint32_t w = corners[(i + 1) % 3];
-                if (!is_end[v] || !is_end[w]) continue;
-                const auto at = std::ranges::lower_bound(
-                    first, end, std::tuple(table, std::min(v, w), std::max(v, w)), {},
-                    &MeshEdge::key);
-                if (at == end || at->low != std::min(v, w) || at->high != std::max(v, w)) continue;
-                if (is_among(parts.facets, *source, facet, flipped)) break;
-                const bool up = ((v < w) == at->low_is_first) != flipped;
-                out.push_back({at->ends, {source, facet, flipped, up}});
-            }
+    std::ranges::sort(out, {}, &MeshEdge::key);
+    return out;
+}
+
+// Fewer groups of eight facets are not worth a part.
+constexpr std::size_t least_whole_groups = 4096;
+
+// Of one mesh, facet by facet.
+void list_whole_facets_on(const BoundaryParts& parts, std::span<const MeshEdge> wanted,
+                          std::uint32_t threads, PoolVector<WholeFacetEdge>& out) {
+    const std::size_t table = wanted.front().table;
+    const FacetMarks& marks = parts.sources[table];
+    const Source* const source = marks.source();
+    const LatticeMesh& mesh = source->mesh();
+    std::vector<bool> is_end(mesh.points.size(), false);
+    for (const MeshEdge& e : wanted) is_end[e.low] = is_end[e.high] = true;
+    const auto look_at = [&](std::uint32_t facet, bool flipped, PoolVector<WholeFacetEdge>& found) {
+        const auto& corners = mesh.triangles[facet];
+        // Of nearly all facets at most one corner is an end: no branch before that is known.
+        const std::array<int, 3> ends{is_end[corners[0]] ? 1 : 0, is_end[corners[1]] ? 1 : 0,
+                                      is_end[corners[2]] ? 1 : 0};
+        if (ends[0] + ends[1] + ends[2] < 2) [[likely]]
+            return;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t v = corners[i];
+            const std::uint32_t w = corners[(i + 1) % 3];
+            if (ends[i] + ends[(i + 1) % 3] < 2) continue;
+            const auto key = std::tuple(table, std::min(v, w), std::max(v, w));
+            const auto at = std::ranges::lower_bound(wanted, key, {}, &MeshEdge::key);
+            if (at == wanted.end() || at->key() != key) continue;
+            if (is_among(parts.facets, *source, facet, flipped)) break;
+            const bool up = ((v < w) == at->low_is_first) != flipped;
+            found.push_back({at->ends, {source, facet, flipped, up}});
+        }
+    };
+    const ParallelParts groups(marks.group_count(), threads, least_whole_groups);
+    std::vector<PoolVector<WholeFacetEdge>> found(groups.count());
+    groups.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        marks.for_each_whole(begin, end, [&](std::uint32_t facet, bool flipped) {
+            look_at(facet, flipped, found[part]);
         });
+    });
+    for (const auto& part : found) out.insert(out.end(), part.begin(), part.end());
+}
+
+}  // namespace
+
+PoolVector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
+                                           std::span<const BoundaryEdge> edges,
+                                           std::uint32_t threads) {
+    const std::vector<MeshEdge> wanted = edges_of_meshes(parts, edges);
+    PoolVector<WholeFacetEdge> out;
+    for (std::size_t first = 0; first < wanted.size();) {
+        std::size_t end = first;
+        while (end < wanted.size() && wanted[end].table == wanted[first].table) ++end;
+        list_whole_facets_on(parts, std::span(wanted).subspan(first, end - first), threads, out);
         first = end;
     }
     std::ranges::stable_sort(out, {}, &WholeFacetEdge::ends);

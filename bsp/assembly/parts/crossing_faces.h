@@ -47,8 +47,10 @@ struct WholeFacetEdge {
 
 /// The edges of facets that pass through whole on edges of cut facets of the same mesh. There are
 /// some only where more than two facets of a mesh meet in an edge. O(whole facets of those meshes).
+/// `threads` as in ParallelParts.
 [[nodiscard]] PoolVector<WholeFacetEdge> whole_facets_on(const BoundaryParts& parts,
-                                                         std::span<const BoundaryEdge> edges);
+                                                         std::span<const BoundaryEdge> edges,
+                                                         std::uint32_t threads = 1);
 
 /// Of outlines of moved meshes: makes BoundaryParts::crossings. False where an outline crosses such
 /// an edge, or has a part of it. \pre edges on one segment have the same ends

@@ -188,20 +188,17 @@ void EdgeSplitter::find_inside_sorted(const BoundaryEdge& e, PoolVector<PointId>
             look_at(e, *it, inside);
 }
 
-// Of an edge along an axis: there its ends have the same place across it, as far as doubles know.
-VertexColumns* EdgeSplitter::columns_of(const BoundaryEdge& e) {
+// That of an edge along an axis: there its ends have the same place across it, as far as doubles
+// know.
+std::optional<std::size_t> EdgeSplitter::axis_of_columns(const BoundaryEdge& e) const {
     const std::array<double, 3>& from = bench_.approximation(e.from).c;
     const std::array<double, 3>& to = bench_.approximation(e.to).c;
     const std::size_t axis = longest_axis(from, to);
     double farthest = 0;
     for (const std::size_t k : {(axis + 1) % 3, (axis + 2) % 3})
         farthest = std::max(farthest, std::fabs(from[k] - to[k]));
-    if (farthest > 3 * widest_) return nullptr;
-    VertexColumns& columns = columns_[axis];
-    // Some dozens of times wider than what is looked for, so that this is mostly in one column.
-    has_columns_[axis].by(
-        [&] { columns.build(grid_.vertices(), axis, widest_ > 0 ? 256 * widest_ : 1); });
-    return &columns;
+    if (farthest > 3 * widest_) return std::nullopt;
+    return axis;
 }
 
 void EdgeSplitter::find_inside_near(const BoundaryEdge& e, PoolVector<PointId>& inside) {
@@ -214,9 +211,15 @@ void EdgeSplitter::find_inside_near(const BoundaryEdge& e, PoolVector<PointId>& 
                 look_at(e, c, inside);
     };
     if (grid_.for_each_near(filter.low(), filter.high(), look_at_all)) return;
-    if (const VertexColumns* columns = columns_of(e);
-        columns != nullptr && columns->for_each_near(filter.low(), filter.high(), look_at_all))
-        return;
+    if (const auto axis = axis_of_columns(e)) {
+        if (!has_columns_[*axis].is_worth_building()) return look_at_all(grid_.vertices());
+        VertexColumns& columns = columns_[*axis];
+        // Some dozens of times wider than what is looked for, so that this is mostly in one column.
+        has_columns_[*axis].by(
+            [&] { columns.build(grid_.vertices(), *axis, widest_ > 0 ? 256 * widest_ : 1); });
+        if (columns.for_each_near(filter.low(), filter.high(), look_at_all)) return;
+    }
+    if (!has_boxes_.is_worth_building()) return look_at_all(grid_.vertices());
     has_boxes_.by([&] { boxes_.build(candidates_); });
     boxes_.for_each_near(from, to, error_slack * (3 * widest_), look_at_all);
 }

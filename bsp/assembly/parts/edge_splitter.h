@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,9 +40,15 @@ public:
 
 private:
     using Candidate = VertexBoxes::Vertex;
-    // Built by the first edge that needs it, once, on whichever thread that is.
+    // Built once several edges needed it, on whichever thread the next one is.
     class BuiltOnce {
     public:
+        /// False for the first ones, which look at all vertices: that is cheaper for so few.
+        [[nodiscard]] bool is_worth_building() {
+            constexpr int few = 16;
+            return is_built_.load(std::memory_order_relaxed) ||
+                   uses_.fetch_add(1, std::memory_order_relaxed) >= few;
+        }
         template <class Build>
         void by(const Build& build) {
             if (is_built_.load(std::memory_order_acquire)) return;
@@ -50,10 +57,14 @@ private:
             build();
             is_built_.store(true, std::memory_order_release);
         }
-        void clear() { is_built_.store(false, std::memory_order_relaxed); }
+        void clear() {
+            is_built_.store(false, std::memory_order_relaxed);
+            uses_.store(0, std::memory_order_relaxed);
+        }
 
     private:
         std::atomic<bool> is_built_{false};
+        std::atomic<int> uses_{0};
         std::mutex mutex_;
     };
     void sort_candidates(std::span<const BoundaryEdge> edges);
@@ -63,7 +74,7 @@ private:
     void find_inside(const BoundaryEdge& e, PoolVector<PointId>& inside);
     void find_inside_sorted(const BoundaryEdge& e, PoolVector<PointId>& inside);
     void find_inside_near(const BoundaryEdge& e, PoolVector<PointId>& inside);
-    [[nodiscard]] VertexColumns* columns_of(const BoundaryEdge& e);
+    [[nodiscard]] std::optional<std::size_t> axis_of_columns(const BoundaryEdge& e) const;
     void look_at(const BoundaryEdge& e, const Candidate& candidate,
                  PoolVector<PointId>& inside) const;
     void sort_inside(const BoundaryEdge& e, int axis, std::span<PointId> inside) const;
@@ -73,8 +84,8 @@ private:
     PoolVector<Candidate> candidates_;
     bool are_many_ = false;
     VertexGrid grid_;                       // of many candidates
-    std::array<VertexColumns, 3> columns_;  // of these, once an edge is long and along an axis
-    VertexBoxes boxes_;                     // once an edge is long
+    std::array<VertexColumns, 3> columns_;  // of these, once edges are long and along an axis
+    VertexBoxes boxes_;                     // once edges are long
     std::array<BuiltOnce, 3> has_columns_;
     BuiltOnce has_boxes_;
     std::vector<bool> is_listed_;  // by point: among the candidates

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <trisect/brep/face/small_polygon.h>
 #include <trisect/kernel/contract.h>
+#include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
@@ -121,29 +123,42 @@ int FacetCutter::exact_turn(std::span<const PointId> loop,
     return PlaneProjection::exact_orientation(at(0), at(1), at(2), axes);
 }
 
+// In units of the lattice, as above. Correctly rounded coordinates are off by half a unit in the
+// last place of the largest one.
+Approximation FacetCutter::nearest(PointId p) const {
+    if (bench_.is_lattice(p)) return bench_.approximation(p);
+    std::array<double, 3> at{};
+    if (made_.unit < 0x1p-600) {
+        at = bench_.nearest(p);
+    } else {
+        at = made_.coordinates[made_.number_of[as_index(p)]];
+        for (double& c : at) c *= 1 / made_.unit;
+    }
+    const double largest = std::max(std::fabs(at[0]), std::max(std::fabs(at[1]), std::fabs(at[2])));
+    return {at, largest * unit_roundoff};
+}
+
 // Loops [first, end) as one region.
 void FacetCutter::cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
                             PoolVector<PointId>& out) {
-    points_.clear();
-    ids_.clear();
+    corners_.clear();
     outline_.clear();
     local_.resize(bench_.point_count(), not_listed);
     for (std::size_t l = first; l < end; ++l) {
         auto& loop = outline_.emplace_back();
         for (const PointId p : loops_.loop(l)) {
             if (local_[as_index(p)] == not_listed) {
-                local_[as_index(p)] = static_cast<std::uint32_t>(ids_.size());
-                ids_.push_back(p);
-                points_.push_back(bench_.point(p));
+                local_[as_index(p)] = static_cast<std::uint32_t>(corners_.size());
+                corners_.add(p, nearest(p));
             }
             loop.push_back(local_[as_index(p)]);
         }
     }
-    for (const PointId p : ids_) local_[as_index(p)] = not_listed;
+    for (const PointId p : corners_.points()) local_[as_index(p)] = not_listed;
     const Plane& support = bench_.plane_at(f.support);
-    for (const IndexTriangle& t :
-         triangulate(f.flipped ? support.flipped() : support, points_, outline_))
-        out.insert(out.end(), {ids_[t[0]], ids_[t[1]], ids_[t[2]]});
+    const PlaneProjection projection(f.flipped ? support.flipped() : support, corners_);
+    for (const IndexTriangle& t : triangulate(projection, outline_))
+        for (const std::uint32_t i : t) out.push_back(corners_.point(i));
 }
 
 }  // namespace trisect::detail

@@ -14,6 +14,7 @@
 #include <trisect/brep/triangulate.h>
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
+#include <trisect/bsp/assembly/parts/face_corners.h>
 #include <trisect/bsp/assembly/parts/face_loops.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/support/pool_allocator.h>
@@ -44,7 +45,11 @@ struct CutFacets {
 class FacetCutter {
 public:
     FacetCutter(const BoundaryParts& parts, const MadeVertices& made)
-        : parts_(parts), bench_(parts.bench), made_(made), loops_(parts.bench) {}
+        : parts_(parts),
+          bench_(parts.bench),
+          made_(made),
+          loops_(parts.bench),
+          corners_(parts.bench) {}
 
     /// Appends the triangles of one facet, of which these are all edges. They depend on the exact
     /// points alone, not on the order of the edges.
@@ -57,6 +62,7 @@ private:
     void cut_loop(const BoundaryFacet& f, std::size_t l, PoolVector<PointId>& out);
     void cut_small(std::span<const PointId> loop, PoolVector<PointId>& out);
     void add_rounded(PointId p, PlaneProjection::Axes axes);
+    [[nodiscard]] Approximation nearest(PointId p) const;
     [[nodiscard]] int exact_turn(std::span<const PointId> loop,
                                  const std::array<std::uint32_t, 3>& corners,
                                  PlaneProjection::Axes axes);
@@ -71,8 +77,7 @@ private:
     std::vector<HomogeneousPoint> exact_;  // of corners of a loop where it was needed
     std::vector<int> exact_of_;            // by corner of the loop
     PoolVector<std::uint32_t> local_;      // by PointId, while one face is triangulated
-    PoolVector<PointId> ids_;
-    std::vector<Point> points_;
+    FaceCorners corners_;
     std::vector<IndexLoop> outline_;
 };
 

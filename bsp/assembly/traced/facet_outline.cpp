@@ -36,8 +36,6 @@
 
 namespace trisect::detail {
 
-namespace {}  // namespace
-
 bool FacetOutline::trace(const std::array<const LatticePoint*, 3>& corners,
                          std::span<const OutlineSegment> segments, const ExactOutline* exact) {
     corners_ = corners;
@@ -248,22 +246,31 @@ bool FacetOutline::walk_paths() {
     walked_.assign(segments_.size(), 0);
     for (std::uint32_t s = 0; s < segments_.size(); ++s)
         if (segments_[s].edge[0] >= 0 && !walk_path(s, at_stop_[s])) return false;
-    // Closed ones.
+    return walk_closed_paths();
+}
+
+// From paths that were walked as far as meetings lead; then from the last that is left. Only
+// segments with meetings are looked at again and again: a facet may have thousands of paths.
+bool FacetOutline::walk_closed_paths() {
+    meeting_.clear();
+    for (std::uint32_t s = 0; s < segments_.size(); ++s)
+        if (walked_[s] == 0 && !meetings_.of(s).empty()) meeting_.push_back(s);
+    std::size_t left = segments_.size();  // all after them are walked
     while (true) {
-        std::uint32_t left = none;
         bool found = false;
-        for (std::uint32_t s = 0; s < segments_.size(); ++s) {
-            if (walked_[s] != 0) continue;
-            left = s;
+        for (const std::uint32_t s : meeting_) {
             Containments containments = 0;
-            if (!start_from_meeting(s, containments)) continue;
+            if (walked_[s] != 0 || !start_from_meeting(s, containments)) continue;
             if (!walk_path(s, containments)) return false;
             found = true;
         }
-        if (left == none) return true;
+        std::erase_if(meeting_, [&](std::uint32_t s) { return walked_[s] != 0; });
         if (found) continue;
+        while (left > 0 && walked_[left - 1] != 0) --left;
+        if (left == 0) return true;
+        const auto last = static_cast<std::uint32_t>(left - 1);
         Containments containments = 0;
-        if (!start_from_corner(left, containments) || !walk_path(left, containments)) return false;
+        if (!start_from_corner(last, containments) || !walk_path(last, containments)) return false;
     }
 }
 
@@ -317,8 +324,12 @@ bool FacetOutline::start_from_meeting(std::uint32_t segment, Containments& conta
     return false;
 }
 
-// By a straight way from the facet's first corner.
+// By a straight way from the facet's first corner, unless there is no other cutter.
 bool FacetOutline::start_from_corner(std::uint32_t segment, Containments& containments) {
+    if (cutters_ == 1) {
+        containments = 0;
+        return true;
+    }
     if (!set_projection()) return false;
     const Approximation from = approximate(*corners_[0]);
     const Approximation& to = *segments_[segment].at[0];

@@ -107,6 +107,7 @@ private:
     [[nodiscard]] bool has_open_outside(std::uint32_t cutter, bool& open);
     [[nodiscard]] bool walk_outline();
     [[nodiscard]] bool walk_paths();
+    [[nodiscard]] bool walk_closed_paths();
     [[nodiscard]] bool walk_path(std::uint32_t start, Containments containments);
     [[nodiscard]] bool start_from_meeting(std::uint32_t segment, Containments& containments);
     [[nodiscard]] bool start_from_corner(std::uint32_t segment, Containments& containments);
@@ -131,7 +132,8 @@ private:
     std::vector<Containments>
         at_stop_;  // of segments that end in the outline, without their cutter
     std::vector<std::uint8_t> walked_;
-    Containments at_corner_ = 0;  // the first one
+    std::vector<std::uint32_t> meeting_;  // segments of closed paths that meet others
+    Containments at_corner_ = 0;          // the first one
     // The plane in which turns are seen, turned so that the facet is counter-clockwise.
     std::size_t axis_u_ = 0;
     std::size_t axis_v_ = 0;

@@ -48,19 +48,36 @@ void TracedFacets::add(const TracedFacet& facet) {
     append(meetings_, facet.meetings);
 }
 
+namespace {
+
+// Of pairs in the order of their first facets the first with this one or a later one.
+std::size_t first_pair_of(const Crossings& crossings, std::uint32_t number) {
+    const auto& pairs = crossings.pairs;
+    const auto first_facet = [](const FacetCrossing& c) { return c.facets[0]; };
+    return static_cast<std::size_t>(std::ranges::lower_bound(pairs, number, {}, first_facet) -
+                                    pairs.begin());
+}
+
+// The same in the order of their second facets.
+std::size_t second_pair_of(const Crossings& crossings, std::uint32_t number) {
+    const auto& by_second = crossings.by_second;
+    const auto second_facet = [&](std::uint32_t i) { return crossings.pairs[i].facets[1]; };
+    return static_cast<std::size_t>(std::ranges::lower_bound(by_second, number, {}, second_facet) -
+                                    by_second.begin());
+}
+
+}  // namespace
+
+std::size_t FacetTracing::segments_before(const Crossings& crossings, std::uint32_t number) {
+    return first_pair_of(crossings, number) + second_pair_of(crossings, number);
+}
+
 void FacetTracing::start_at(std::size_t shown) {
     first_ = second_ = uncertain_ = 0;
-    if (shown == 0) return;
+    if (shown == 0 || shown == crossings_.shown.size()) return;
     const std::uint32_t number = crossings_.shown[shown];
-    const auto& pairs = crossings_.pairs;
-    first_ = static_cast<std::size_t>(
-        std::ranges::lower_bound(pairs, number, {},
-                                 [](const FacetCrossing& c) { return c.facets[0]; }) -
-        pairs.begin());
-    second_ = static_cast<std::size_t>(
-        std::ranges::lower_bound(crossings_.by_second, number, {},
-                                 [&](std::uint32_t i) { return pairs[i].facets[1]; }) -
-        crossings_.by_second.begin());
+    first_ = first_pair_of(crossings_, number);
+    second_ = second_pair_of(crossings_, number);
     uncertain_ = static_cast<std::size_t>(std::ranges::lower_bound(crossings_.uncertain, number) -
                                           crossings_.uncertain.begin());
 }

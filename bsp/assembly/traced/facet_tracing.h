@@ -76,6 +76,10 @@ public:
                  std::span<FacetMarks* const> marks)
         : crossings_(crossings), operand_of_(operand_of), marks_(marks) {}
 
+    /// How many segments there are on facets of smaller numbers. O(log n)
+    [[nodiscard]] static std::size_t segments_before(const Crossings& crossings,
+                                                     std::uint32_t number);
+
     /// Calls visit(TracedFacet) for those of the shown facets [begin, end) whose outlines doubles
     /// decide, in their order. Marks of other facets than these may change meanwhile.
     template <class Visit>

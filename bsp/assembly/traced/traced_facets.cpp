@@ -69,10 +69,9 @@ private:
     // Some threads trace while this one gives names.
     void trace_in_parts(std::size_t count, std::uint32_t threads) {
         std::vector<TracedFacets> traced(count);
-        const std::size_t size = crossings_.shown.size();
         const auto trace = [&](std::size_t part) {
             FacetTracing(crossings_, operand_of_, marks_)
-                .run(size * part / count, size * (part + 1) / count,
+                .run(begin_of(part, count), begin_of(part + 1, count),
                      [&](const TracedFacet& f) { traced[part].add(f); });
         };
         const auto name = [&](std::size_t part) {
@@ -80,6 +79,21 @@ private:
             traced[part] = {};
         };
         for_each_in_order(count, threads, trace, name);
+    }
+
+    // The first facet of a part: parts have as many facets and segments as others, since one facet
+    // may have nearly all segments.
+    [[nodiscard]] std::size_t begin_of(std::size_t part, std::size_t count) const {
+        const auto& shown = crossings_.shown;
+        const std::size_t all = shown.size() + 2 * crossings_.pairs.size();
+        const std::size_t before = all * part / count;
+        const auto is_before = [&](const std::uint32_t& number) {
+            return static_cast<std::size_t>(&number - shown.data()) +
+                       FacetTracing::segments_before(crossings_, number) <
+                   before;
+        };
+        const auto at = std::partition_point(shown.begin(), shown.end(), is_before);
+        return static_cast<std::size_t>(at - shown.begin());
     }
 
     // Nothing is left of a source without marks.

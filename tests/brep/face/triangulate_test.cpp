@@ -10,6 +10,7 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <trisect/brep/exact_rational.h>
@@ -102,12 +103,35 @@ void expect_triangulation(const Figure& f, const std::vector<IndexTriangle>& tri
     for (const auto& [edge, n] : edges) EXPECT_EQ(n, 0);
 }
 
+// The points of a figure by doubles that leave all open that they can.
+class BluntPoints final : public RoundedPoints {
+public:
+    explicit BluntPoints(std::span<const Point> points) : points_(points) {
+        for (const Point& p : points) nearest_.push_back({p.approximation().c, 0x1p+20});
+    }
+    [[nodiscard]] std::span<const Approximation> nearest() const override { return nearest_; }
+    [[nodiscard]] HomogeneousPoint homogeneous(std::uint32_t i) const override {
+        return points_[i].homogeneous();
+    }
+    [[nodiscard]] int compare_along(std::uint32_t a, std::uint32_t b, int axis) const override {
+        const auto order = compare_coordinate(points_[a], points_[b], axis);
+        return order < 0 ? -1 : (order > 0 ? 1 : 0);
+    }
+
+private:
+    std::span<const Point> points_;
+    std::vector<Approximation> nearest_;
+};
+
 void expect_triangulable(const Loops& loops) {
     for (const Placement how :
          {Placement::Flat, Placement::TurnedOver, Placement::Upright, Placement::Sheared}) {
         for (const bool split : {false, true}) {
             const Figure f = figure(loops, how, split);
-            expect_triangulation(f, triangulate(plane_of(how), f.points, f.loops));
+            const auto triangles = triangulate(plane_of(how), f.points, f.loops);
+            expect_triangulation(f, triangles);
+            const BluntPoints blunt(f.points);
+            EXPECT_EQ(triangulate(PlaneProjection(plane_of(how), blunt), f.loops), triangles);
         }
     }
 }

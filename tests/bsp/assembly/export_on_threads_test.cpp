@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <trisect/brep/measure.h>
 #include <trisect/brep/polygon_mesh.h>
 #include <trisect/bsp/assembly/assembly_parts.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
@@ -109,6 +110,23 @@ TEST(ExportOnThreads, BoresThroughAPlate) {
         for (int j = 0; j < 12; ++j) add_bore(bores, i, j, 32);
     const Solid plate = evaluate(solids::box(0, 0, 0, 12, 12, 1) - Solid::from_mesh(bores));
     EXPECT_GT(expect_the_same_on_threads(plate), 8192U);
+}
+
+// Closed paths of two tools on the same facets: some meet, some lie in each other, most are alone.
+TEST(ExportOnThreads, BoresOfTwoToolsThroughAPlate) {
+    std::array<PolygonMesh, 2> bores;
+    for (int i = 0; i < 10; ++i)
+        for (int j = 0; j < 10; ++j)
+            for (std::size_t tool = 0; tool < 2; ++tool)
+                if ((i * j) % 3 != static_cast<int>(tool))
+                    add_bore(bores[tool], i + 0.03125 * (j % 7) * static_cast<double>(tool), j, 24);
+    const Solid plate = solids::box(0, 0, 0, 10.5, 10, 1);
+    const Solid first = Solid::from_mesh(bores[0]);
+    const Solid second = Solid::from_mesh(bores[1]);
+    const Solid both = evaluate(plate - first - second);
+    EXPECT_GT(expect_the_same_on_threads(both), 4096U);
+    const Solid one_by_one = evaluate(evaluate(plate - first) - second);
+    EXPECT_EQ(trisect::exact_volume(both.to_brep()), trisect::exact_volume(one_by_one.to_brep()));
 }
 
 // Bars across each other: planes with hundreds of edges each, outlined one by one.
