@@ -235,7 +235,7 @@ std::vector<PolygonRef> PrismArrangement::list_whole() {
     std::vector<PolygonRef> out;
     resize_ready(out, first.back());
     for_each_walk([&](std::size_t i) {
-        std::ranges::copy(found_[i].whole, out.begin() + first_of_walk[i]);
+        std::ranges::copy(found_[i].whole, out.data() + first_of_walk[i]);
         found_[i].whole = {};
     });
     of_caps.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
