@@ -16,7 +16,7 @@
 namespace {
 
 using trisect::detail::VertexColumns;
-using vertices_in_box::Point;
+using Point = vertices_in_box::Point;
 
 class VertexColumnsAlong : public testing::TestWithParam<std::size_t> {};
 

@@ -16,7 +16,7 @@
 namespace {
 
 using trisect::detail::VertexGrid;
-using vertices_in_box::Point;
+using Point = vertices_in_box::Point;
 
 // The size of a lattice: solids may be far smaller or larger than its unit.
 class VertexGridOfSize : public testing::TestWithParam<double> {};
