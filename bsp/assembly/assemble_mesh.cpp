@@ -510,7 +510,7 @@ struct ListedFacets {
 PolygonMesh assemble_on_threads(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                                 std::uint32_t threads, const MeshDetails& details) {
     // No arena for what no step would divide.
-    const bool small = std::visit(ListedFacets(), solid.form) < 1024;
+    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
     return on_threads(small ? 1 : threads, [&](std::uint32_t n) {
         return assemble(solid, stats, by_planes, n, details);
     });

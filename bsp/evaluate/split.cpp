@@ -55,7 +55,9 @@ public:
         for (std::size_t i = 0; i <= half_spaces.size(); ++i) {
             MeshSlab& slab = slabs_.emplace_back();
             slab.solids.push_back(states[0]);
-            std::vector<Residual::Ref> terms{Residual::of_slot(0)};
+            std::vector<Residual::Ref> terms;
+            terms.reserve(3);
+            terms.push_back(Residual::of_slot(0));
             const auto add = [&](std::size_t plane, bool is_above) {
                 const auto slot = static_cast<std::int32_t>(slab.solids.size());
                 slab.solids.push_back(states[plane + 1]);
