@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
@@ -81,7 +82,7 @@ const Plane& Workbench::make_plane(PlaneId id) const {
 
 void Workbench::share() {
     made_.reserve(planes_.size());
-    if (adding_ == nullptr) adding_ = std::make_unique<std::mutex>();
+    if (adding_ == nullptr) adding_ = std::make_unique<SpinLock>();
 }
 
 // The edge planes of a facet are found by one key and have ids in a row.

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,6 +23,7 @@
 #include <trisect/kernel/support/few.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>
+#include <trisect/kernel/support/spin_lock.h>
 
 namespace trisect::detail {
 
@@ -264,7 +264,7 @@ private:
 
     std::vector<PlaneRecord, PoolAllocator<PlaneRecord>> planes_;
     mutable MadePlanes made_;
-    std::unique_ptr<std::mutex> adding_;      // to these, where the bench is shared
+    std::unique_ptr<SpinLock> adding_;        // to these, where the bench is shared
     mutable std::vector<ExactPoint> recent_;  // by the last bits of the point
     std::vector<PointRecord, PoolAllocator<PointRecord>> points_;
     FlatMap plane_ids_;
