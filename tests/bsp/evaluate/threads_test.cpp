@@ -103,6 +103,22 @@ TEST(Threads, MeshesDoNotDependOnTheirNumber) {
     EXPECT_GT(mesh.face_count(), 70000U);
 }
 
+// A ball of 82,000 facets.
+PolygonMesh ball_at(double x, double y, double z) {
+    PolygonMesh out = trisect::make_icosphere(1, 6);
+    for (auto& p : out.points) p = {p[0] + x, p[1] + y, p[2] + z};
+    return out;
+}
+
+// Two of three meshes have 2^17 facets near each other, which is where both sides of a plane are
+// worth a thread (bsp/many_meshes/crossed_facets.cpp).
+TEST(Threads, ManyLargeMeshesDoNotDependOnTheirNumber) {
+    const PolygonMesh mesh = expect_the_same_on_any_number(
+        {ball_at(0, 0, 0), ball_at(0.11, 0.07, 0.05), ball_at(-0.06, 0.13, -0.09)},
+        [](const auto& s) { return s[0] | s[1] | s[2]; });
+    EXPECT_GT(mesh.face_count(), 82000U);
+}
+
 // Prisms of eight sides on a grid, each turned otherwise; its outer rows reach out of a plate.
 PolygonMesh pockets(int n) {
     constexpr std::uint32_t sides = 8;
