@@ -116,7 +116,7 @@ void RankSlabs::survey() {
     has_folder_ = true;
     step("survey", [&] {
         reserve_note();
-        if (is_first()) slab_run_.gather();
+        is_first() ? slab_run_.gather() : slab_run_.join_folder();
     });
     const auto ranks = static_cast<std::size_t>(Ranks::count());
     step("survey", [&] {

@@ -20,6 +20,7 @@
 #include <trisect/bsp/native_file.h>
 #include <trisect/kernel/error.h>
 
+#include "folder_lock.h"
 #include "gathered_file.h"
 #include "piece.h"
 #include "piecewise_file.h"
@@ -109,19 +110,27 @@ std::string SlabRun::scratch(std::size_t slab, std::size_t operand, std::size_t 
 
 namespace {
 
-void make_folder(const std::string& name) {
-    std::error_code failed;
-    std::filesystem::create_directories(name, failed);
-    if (failed) throw Error(ErrorCode::Input, name + ": cannot be made: " + failed.message());
+constexpr double patience = 60;  // seconds; processes of a launcher that was killed end sooner
+
+bool is_of_job(const std::filesystem::path& file) {
+    return file.filename().string().starts_with("job");
 }
 
-// What says whose it is goes last: the next run must know what a killed one left.
-void remove_folder(const std::string& name) {
+// What says whose it is goes last: the next run must know what a killed one left. The lock stays.
+void empty_folder(const std::string& name) {
     std::vector<std::filesystem::path> others;
+    std::vector<std::filesystem::path> own;
     for (const auto& entry : std::filesystem::directory_iterator(name))
-        if (!entry.path().filename().string().starts_with("job")) others.push_back(entry.path());
+        (is_of_job(entry.path()) ? own : others).push_back(entry.path());
+    std::erase(own, std::filesystem::path(lock_name(name)));
     for (const std::filesystem::path& p : others) std::filesystem::remove_all(p);
-    std::filesystem::remove_all(name);
+    for (const std::filesystem::path& p : own) std::filesystem::remove_all(p);
+}
+
+bool is_of_another(const std::string& folder) {
+    if (!std::filesystem::exists(folder) || std::filesystem::is_empty(folder)) return false;
+    return std::ranges::none_of(std::filesystem::directory_iterator(folder),
+                                [](const auto& entry) { return is_of_job(entry.path()); });
 }
 
 bool can_be_streamed(const std::string& name) {
@@ -138,20 +147,20 @@ bool can_be_streamed(const std::string& name) {
 // Its first file says of which job it is, so it is known from the beginning.
 void SlabRun::begin() {
     if (!options_.natives.empty()) make_folder(options_.natives);
-    if (std::filesystem::exists(options_.folder)) {
-        const bool is_known = std::ranges::any_of(
-            std::filesystem::directory_iterator(options_.folder),
-            [](const auto& entry) { return entry.path().filename().string().starts_with("job"); });
-        if (!is_known && !std::filesystem::is_empty(options_.folder))
-            throw Error(ErrorCode::Usage,
-                        options_.folder + ": is there already, and not of trisect");
-        if (options_.resume && has_plan()) {
-            take_plan();
-            return;
-        }
-        remove_folder(options_.folder);
-    }
-    make_folder(options_.folder);
+    if (is_of_another(options_.folder))
+        throw Error(ErrorCode::Usage, options_.folder + ": is there already, and not of trisect");
+    lock_.take(options_.folder, patience);
+    if (options_.resume && has_plan())
+        take_plan();
+    else
+        begin_anew();
+    lock_.share();
+}
+
+void SlabRun::join_folder() { lock_.join(options_.folder); }
+
+void SlabRun::begin_anew() {
+    empty_folder(options_.folder);
     OutputStream out(options_.folder + "/job");
     out.write(job_.data(), job_.size());
     out.finish();
@@ -329,11 +338,13 @@ JoinedMesh SlabRun::join() const {
 }
 
 void SlabRun::clean() const {
+    if (!lock_.is_held()) return;
     std::ifstream file(options_.folder + "/job");
     std::string job;
     if (!std::getline(file, job) || job != job_) return;
     try {
-        remove_folder(options_.folder);
+        empty_folder(options_.folder);
+        std::filesystem::remove_all(options_.folder);
     } catch (const std::filesystem::filesystem_error&) {
         return;  // the result is there
     }

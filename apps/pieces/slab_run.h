@@ -10,6 +10,7 @@
 
 #include <trisect/bsp/expression.h>
 
+#include "folder_lock.h"
 #include "piece_join.h"
 #include "slab_plan.h"
 
@@ -28,8 +29,12 @@ class SlabRun {
 public:
     explicit SlabRun(SlabOptions options);
 
-    /// Makes the folder, or takes over the plan of a run that was interrupted, if wanted.
+    /// Makes the folder, or takes over the plan of a run that was interrupted, if wanted. Waits
+    /// for what is left of that run.
+    /// \throw Error (Usage) where the folder is another one's; (Input) where a run is at work there
     void begin();
+    /// In the other processes of the run, once one of them has begun.
+    void join_folder();
     [[nodiscard]] bool has_plan() const;
     /// Operands that cannot be read in pieces, unless they were gathered already.
     void gather() const;
@@ -58,10 +63,11 @@ public:
     [[nodiscard]] PieceJoin joining() const;
     /// All steps of it, in one process.
     JoinedMesh join() const;
-    /// Removes the folder, which only has files of this job.
+    /// Removes the folder, which only has files of this job, if begin() had it.
     void clean() const;
 
 private:
+    void begin_anew();
     [[nodiscard]] std::string path(const char* kind, std::size_t slab) const;
     [[nodiscard]] std::string scratch(std::size_t slab, std::size_t operand,
                                       std::size_t share) const;
@@ -71,6 +77,7 @@ private:
     SlabOptions options_;
     std::string job_;
     SlabPlan plan_;
+    FolderLock lock_;
 };
 
 }  // namespace trisect::app

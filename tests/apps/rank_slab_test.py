@@ -6,6 +6,7 @@ Unites, intersects and subtracts two rings in slabs, with `trisect` and with `tr
 are the same bytes. Broken inputs and a folder that cannot be written leave an error and nothing else. Without the last two
 arguments, or where MPI does not start, only the first part is done, and the test counts as skipped (77).
 """
+import fcntl
 import json
 import math
 import os
@@ -198,6 +199,23 @@ class RankSlabs(unittest.TestCase):
             pathlib.Path(self.b).write_bytes(whole[:84] + whole[84:134] + whole[84:134] + whole[184:])
             self.boolean(program, 'union', 'o.ply', '--slabs', '3', code=4)
             self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ['a.stl', 'b.stl'])
+
+    def test_a_run_waits_for_what_is_left_of_the_last_one(self):
+        expected = self.boolean([TRISECT], 'union', 'a.ply', '--slabs', '6').read_bytes()
+        for program in [[TRISECT]] + ([self.ranks(2)] if READY else []):
+            out = self.folder / 'b.ply'
+            folder = self.folder / 'b.ply.slabs'
+            folder.mkdir()
+            with open(folder / 'job.lock', 'w') as lock:
+                fcntl.flock(lock, fcntl.LOCK_SH)
+                run = subprocess.Popen([*program, 'union', self.a, self.b, '-o', str(out), '-q', '--slabs', '6'],
+                                       env=ENVIRONMENT)
+                time.sleep(2)
+                self.assertIsNone(run.poll())
+                self.assertEqual([p.name for p in folder.iterdir()], ['job.lock'])
+            self.assertEqual(run.wait(timeout=300), 0)
+            self.assertEqual(out.read_bytes(), expected)
+            self.assertFalse(folder.exists())
 
     @unittest.skipUnless(READY, 'needs MPI')
     def test_ranks(self):

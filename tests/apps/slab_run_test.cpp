@@ -161,11 +161,13 @@ TEST_F(SlabRunTest, AnInterruptedRunGoesOn) {
     const std::string expected = read(asked.output);
     whole.clean();
 
-    SlabRun first(asked);
-    first.plan();
-    ASSERT_TRUE(first.distribute(0, 1));
-    first.note_distributed(1);
-    first.evaluate(2, 1, {});
+    {
+        SlabRun first(asked);
+        first.plan();
+        ASSERT_TRUE(first.distribute(0, 1));
+        first.note_distributed(1);
+        first.evaluate(2, 1, {});
+    }
     asked.resume = true;
     SlabRun second(asked);
     second.plan();
@@ -187,9 +189,11 @@ TEST_F(SlabRunTest, OpenAndBrokenInputsAreRefused) {
     const std::string b = write_mesh_file("b.ply", open);
     SlabOptions asked = options("union", a, b);
     asked.slabs = 3;
-    SlabRun run(asked);
-    run.plan();
-    EXPECT_THROW((void)finish(run, 1), trisect::Error);
+    {
+        SlabRun run(asked);
+        run.plan();
+        EXPECT_THROW((void)finish(run, 1), trisect::Error);
+    }
     EXPECT_FALSE(exists("out.ply"));
 
     const std::string bytes = read(b);
