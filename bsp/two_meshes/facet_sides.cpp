@@ -245,6 +245,15 @@ bool FacetSides::look_at_often_pierced_edges(const Crossings& crossings, std::si
         for (std::size_t e = 0; e < 3; ++e) {
             const std::uint32_t from = t[e];
             const std::uint32_t to = t[(e + 1) % 3];
+            if (std::ranges::none_of(pierces, [e](const Pierce& p) { return p.edge == e; }))
+                continue;
+            const std::uint32_t a = node_of(from);
+            const std::uint32_t b = node_of(to);
+            sides_.resize(parents_.size(), Side::Unknown);
+            // Edges around a vertex all say the same.
+            const bool wants_low = sides_[root(a)] == Side::Unknown;
+            const bool wants_high = sides_[root(b)] == Side::Unknown;
+            if (!wants_low && !wants_high) continue;
             const Pierce* low = nullptr;
             const Pierce* high = nullptr;
             const auto is_before = [&](const Pierce& p, const Pierce& q) {
@@ -254,16 +263,11 @@ bool FacetSides::look_at_often_pierced_edges(const Crossings& crossings, std::si
             };
             for (const Pierce& p : pierces) {
                 if (p.edge != e) continue;
-                if (low == nullptr || is_before(p, *low)) low = &p;
-                if (high == nullptr || is_before(*high, p)) high = &p;
+                if (low == nullptr || (wants_low && is_before(p, *low))) low = &p;
+                if (high == nullptr || (wants_high && is_before(*high, p))) high = &p;
             }
-            if (low == nullptr) continue;
-            const std::uint32_t a = node_of(from);
-            const std::uint32_t b = node_of(to);
-            sides_.resize(parents_.size(), Side::Unknown);
-            if (!set_side(a, low->up ? Side::Below : Side::Above) ||
-                !set_side(b, high->up ? Side::Above : Side::Below))
-                return false;
+            if (wants_low && !set_side(a, low->up ? Side::Below : Side::Above)) return false;
+            if (wants_high && !set_side(b, high->up ? Side::Above : Side::Below)) return false;
         }
         return true;
     };
