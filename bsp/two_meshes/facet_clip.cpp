@@ -13,6 +13,8 @@
 #include <cstddef>
 #include <span>
 
+#include <trisect/kernel/support/four_floats.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -31,16 +33,15 @@ struct ClippedTriangle {
     std::size_t size = 0;
     bool is_known = true;  // there was room for all corners
 
-    [[nodiscard]] ClippedCorner low() const {
-        ClippedCorner low = corners[0];
-        for (std::size_t i = 1; i < size; ++i)
-            for (std::size_t k = 0; k < 4; ++k) low[k] = std::min(low[k], corners[i][k]);
+    [[nodiscard]] FourFloats at(std::size_t i) const { return FourFloats(corners[i]); }
+    [[nodiscard]] FourFloats low() const {
+        FourFloats low = at(0);
+        for (std::size_t i = 1; i < size; ++i) low = smaller(low, at(i));
         return low;
     }
-    [[nodiscard]] ClippedCorner high() const {
-        ClippedCorner high = corners[0];
-        for (std::size_t i = 1; i < size; ++i)
-            for (std::size_t k = 0; k < 4; ++k) high[k] = std::max(high[k], corners[i][k]);
+    [[nodiscard]] FourFloats high() const {
+        FourFloats high = at(0);
+        for (std::size_t i = 1; i < size; ++i) high = larger(high, at(i));
         return high;
     }
     // Leaves what has sign · coordinate <= sign · limit.
@@ -55,15 +56,26 @@ struct ClippedTriangle {
             is_known = is_known && size + 2 <= most_corners;
             if (!is_known) return;
             if ((at_a <= 0) != (at_b <= 0)) {
-                const float t = at_a / (at_a - at_b);
+                const FourFloats from(*a);
+                const FourFloats t(at_a / (at_a - at_b));
                 ClippedCorner& c = corners[size++];
-                for (std::size_t k = 0; k < 4; ++k) c[k] = (*a)[k] + t * (b[k] - (*a)[k]);
+                c = (from + t * (FourFloats(b) - from)).numbers();
                 c[axis] = limit;
             }
             if (at_b <= 0) corners[size++] = b;
             a = &b;
             at_a = at_b;
         }
+    }
+    // Leaves what lies between the limits, if anything reaches beyond them.
+    void cut_between(std::size_t axis, float low, float high) {
+        const auto reaches = [&](float limit, float sign) {
+            for (std::size_t i = 0; i < size; ++i)
+                if (sign * corners[i][axis] > sign * limit) return true;
+            return false;
+        };
+        if (reaches(low, -1)) cut(axis, low, -1);
+        if (reaches(high, 1)) cut(axis, high, 1);
     }
 };
 
@@ -88,18 +100,17 @@ PackedBox FacetClip::clipped(std::uint32_t facet, const PackedBox& within) const
     PackedBox out = within;
     out.id = facet;
     for (std::size_t k = 0; k < 3; ++k) {
-        const float low = static_cast<float>(within.low(k)) - margin_;
-        const float high = static_cast<float>(within.high(k) + 1) + margin_;
-        if (part.low()[k] < low) part.cut(k, low, -1);
-        if (part.size != 0 && part.high()[k] > high) part.cut(k, high, 1);
+        part.cut_between(k, static_cast<float>(within.low(k)) - margin_,
+                         static_cast<float>(within.high(k) + 1) + margin_);
         if (!part.is_known) return out;
         if (part.size == 0) return PackedBox{};
     }
-    const ClippedCorner low = part.low();
-    const ClippedCorner high = part.high();
+    const FourFloats margin(margin_);
+    const ClippedCorner low = (part.low() - margin).numbers();
+    const ClippedCorner high = (part.high() + margin).numbers();
     for (std::size_t k = 0; k < 3; ++k) {
-        const auto below = static_cast<std::int16_t>(std::floor(low[k] - margin_));
-        const auto above = static_cast<std::int16_t>(-std::floor(high[k] + margin_));
+        const auto below = static_cast<std::int16_t>(std::floor(low[k]));
+        const auto above = static_cast<std::int16_t>(-std::floor(high[k]));
         out.lo[k] = std::max(out.lo[k], below);
         out.minus_hi[k] = std::max(out.minus_hi[k], above);
     }
