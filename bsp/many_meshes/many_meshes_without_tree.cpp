@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -36,6 +35,7 @@
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/many_meshes/beside_boundary.h>
 #include <trisect/bsp/many_meshes/common_part.h>
+#include <trisect/bsp/many_meshes/crowd.h>
 #include <trisect/bsp/many_meshes/decided_operands.h>
 #include <trisect/bsp/many_meshes/formula_reach.h>
 #include <trisect/bsp/many_meshes/operand_clusters.h>
@@ -66,86 +66,9 @@ bool is_open_far_out(const SolidState& solid, const Crossings::Operand& operand)
            operand.open;
 }
 
-// In how many boxes of operands a point of their common box lies, on average: so many, or this part
-// of all where they are few.
-constexpr double crowded_depth = 2.5;
-constexpr double crowded_part = 0.3;
-
-// In fewer, neighbours are compared first; from here on that is less than what cells compare and
-// assembly puts together.
-constexpr double near_depth = 2;
-
-// The part of the common box that the first operand's has, where all others are tools in it.
-constexpr double large_first_part = 0.5;
-
-// The part of all operands of which boxes stand on each other: there cells are arranged exactly.
-constexpr double standing_part = 0.5;
-
-// So few facets are compared pair by pair wherever they are, where such a part of all operands may
-// touch others: cells would be arranged exactly. More are where most may bound the result.
+// So few facets are compared pair by pair wherever they are, where enough operands may touch
+// others: cells would be arranged exactly. More are where most may bound the result.
 constexpr std::size_t few_facets = 20000;
-constexpr double touching_part = 0.125;
-
-enum class Crowd : std::uint8_t { None, Near, All, InFirst };
-
-// Whether a box ends where another one begins, and they have a part of a plane in common.
-bool stands(const Box& a, const Box& b) {
-    for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t u = (k + 1) % 3;
-        const std::size_t v = (k + 2) % 3;
-        if ((a.hi[k] == b.lo[k] || b.hi[k] == a.lo[k]) && a.lo[u] < b.hi[u] && b.lo[u] < a.hi[u] &&
-            a.lo[v] < b.hi[v] && b.lo[v] < a.hi[v])
-            return true;
-    }
-    return false;
-}
-
-bool are_enough(std::span<const std::uint8_t> found, double part) {
-    const auto count = static_cast<double>(std::ranges::count(found, 1));
-    return count > 0 && count >= part * static_cast<double>(found.size());
-}
-
-// Whether enough boxes begin or end at a coordinate at which another one ends or begins.
-bool may_stand(std::span<const Box> boxes) {
-    std::vector<std::uint8_t> found(boxes.size(), 0);
-    std::vector<std::int64_t> begins;
-    std::vector<std::int64_t> ends;
-    for (std::size_t k = 0; k < 3; ++k) {
-        begins.clear();
-        ends.clear();
-        for (const Box& b : boxes) {
-            begins.push_back(b.lo[k]);
-            ends.push_back(b.hi[k]);
-        }
-        std::ranges::sort(begins);
-        std::ranges::sort(ends);
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            if (std::ranges::binary_search(ends, boxes[i].lo[k]) ||
-                std::ranges::binary_search(begins, boxes[i].hi[k]))
-                found[i] = 1;
-    }
-    return are_enough(found, standing_part);
-}
-
-// Looks at neighbours in the order along each axis.
-bool do_stand(std::span<const Box> boxes) {
-    if (!may_stand(boxes)) return false;
-    constexpr std::size_t most_looked_at = 64;
-    std::vector<std::uint8_t> found(boxes.size(), 0);
-    std::vector<std::uint32_t> order(boxes.size());
-    std::iota(order.begin(), order.end(), 0U);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::ranges::sort(order, {},
-                          [&](std::uint32_t s) { return std::pair(boxes[s].lo[axis], s); });
-        for (std::size_t i = 0; i < order.size(); ++i) {
-            const Box& a = boxes[order[i]];
-            const std::size_t end = std::min(order.size(), i + 1 + most_looked_at);
-            for (std::size_t j = i + 1; j < end && boxes[order[j]].lo[axis] <= a.hi[axis]; ++j)
-                if (stands(a, boxes[order[j]])) found[order[i]] = found[order[j]] = 1;
-        }
-    }
-    return are_enough(found, standing_part);
-}
 
 std::vector<Box> boxes_of(const SolidStates& solids) {
     std::vector<Box> boxes;
@@ -174,22 +97,6 @@ bool are_thin(const Residual& formula, const SolidStates& solids) {
     }
     if (facets < least_of_thin * sources.size()) return false;
     return are_mostly_thin(sources, crossings_of(formula, solids) ? thin : thin_of_nested);
-}
-
-// A large facet that more operands cross is traced in no cell (FacetOutline): whether the largest
-// box meets as many others.
-constexpr std::size_t most_cutters = 64;
-
-bool meets_many(std::span<const Box> boxes) {
-    const auto size = [](const Box& b) {
-        double out = 1;
-        for (std::size_t k = 0; k < 3; ++k) out *= static_cast<double>(b.hi[k] - b.lo[k] + 1);
-        return out;
-    };
-    const auto largest = std::ranges::max_element(boxes, {}, size);
-    const auto met =
-        std::ranges::count_if(boxes, [&](const Box& b) { return b.overlaps(*largest); });
-    return static_cast<std::size_t>(met) > most_cutters;
 }
 
 // About how many facets of an imported mesh are beside a box, by some of them.
@@ -223,57 +130,6 @@ bool are_mostly_beside(const Residual& formula, const SolidStates& solids) {
         beside += facets_beside(source_of(*s), *reach);
     }
     return 2 * beside > all;
-}
-
-// Whether two boxes begin or end at one coordinate, or lie about one: then edges of round shapes
-// cross edges.
-bool may_touch(const Box& a, const Box& b) {
-    for (std::size_t k = 0; k < 3; ++k)
-        if (a.lo[k] == b.lo[k] || a.lo[k] == b.hi[k] || a.hi[k] == b.lo[k] || a.hi[k] == b.hi[k] ||
-            a.lo[k] + a.hi[k] == b.lo[k] + b.hi[k])
-            return true;
-    return false;
-}
-
-// Whether that holds for enough of those that meet, or none do. Each looks at those that begin
-// before it ends.
-bool may_touch_or_are_apart(std::vector<Box> boxes) {
-    Box all;
-    for (const Box& b : boxes) all.add(b);
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (all.hi[k] - all.lo[k] > all.hi[axis] - all.lo[axis]) axis = k;
-    std::ranges::sort(boxes, {}, [&](const Box& b) { return b.lo[axis]; });
-    std::vector<std::uint8_t> found(boxes.size(), 0);
-    bool are_apart = true;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const Box& a = boxes[i];
-        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[axis] <= a.hi[axis]; ++j) {
-            if (!a.overlaps(boxes[j])) continue;
-            are_apart = false;
-            if ((found[i] == 0 || found[j] == 0) && may_touch(a, boxes[j])) found[i] = found[j] = 1;
-        }
-    }
-    return are_apart || are_enough(found, touching_part);
-}
-
-Crowd crowd_of(const SolidStates& solids) {
-    Box all;
-    for (const auto& s : solids) all.add(source_of(*s).box());
-    const auto part_of = [&](const SolidState& solid) {
-        const Box& box = source_of(solid).box();
-        double part = 1;
-        for (std::size_t k = 0; k < 3; ++k)
-            part *= static_cast<double>(box.hi[k] - box.lo[k] + 1) /
-                    static_cast<double>(all.hi[k] - all.lo[k] + 1);
-        return part;
-    };
-    double sum = 0;
-    for (const auto& s : solids) sum += part_of(*s);
-    if (sum >= std::min(crowded_depth, crowded_part * static_cast<double>(solids.size())))
-        return Crowd::All;
-    if (part_of(*solids[0]) >= large_first_part) return Crowd::InFirst;
-    return sum >= near_depth ? Crowd::Near : Crowd::None;
 }
 
 class BalancedTree {
@@ -327,9 +183,9 @@ private:
     // open do nothing. Where operands do not fill one place neighbours come first: then most of a
     // solid is far from the other one.
     void set_order() {
-        const Crowd crowd = crowd_of(solids_);
-        first_is_last_ = crowd == Crowd::InFirst;
         const std::vector<Box> boxes = boxes_of(solids_);
+        const Crowd crowd = crowd_of(boxes);
+        first_is_last_ = crowd == Crowd::InFirst;
         const std::optional<Box> reach = reach_of(boxes);
         std::vector<std::uint32_t> all;
         std::vector<std::uint32_t> bounded;
@@ -949,7 +805,7 @@ Operands operands_of(const Residual& formula, const SolidStates& solids, std::ui
     }
     out.nested = NestedFormula::read(formula, solids.size());
     out.crossings = *nested_crossings(*out.nested, solids);
-    out.neighbours_come_first = crowd_of(solids) != Crowd::All;
+    out.neighbours_come_first = crowd_of(boxes_of(solids)) != Crowd::All;
     if (out.neighbours_come_first) leave_out_decided(out, threads);
     return out;
 }
@@ -970,9 +826,9 @@ bool may_be_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
 bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
                      const EvaluateSettings& options) {
     if (!may_be_many_meshes(formula, solids, options)) return false;
-    const Crowd crowd = crowd_of(solids);
-    if (crowd == Crowd::All || crowd == Crowd::InFirst) return true;
     const std::vector<Box> boxes = boxes_of(solids);
+    const Crowd crowd = crowd_of(boxes);
+    if (crowd == Crowd::All || crowd == Crowd::InFirst) return true;
     const bool few = are_few(solids);
     if (do_stand(boxes) || (few && may_touch_or_are_apart(boxes))) return true;
     if (are_mostly_beside(*formula, solids)) return false;
@@ -981,7 +837,9 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
     return crowd == Crowd::Near || meets_many(boxes) || are_thin(*formula, solids);
 }
 
-bool do_fill_one_place(const SolidStates& solids) { return crowd_of(solids) == Crowd::All; }
+bool do_fill_one_place(const SolidStates& solids) {
+    return crowd_of(boxes_of(solids)) == Crowd::All;
+}
 
 bool do_stand_on_each_other(const SolidStates& solids) { return do_stand(boxes_of(solids)); }
 
