@@ -39,6 +39,10 @@ class PairFinder;
 bool has_long_facets_of(const CellOperand& o);
 bool has_planes_of(const CellOperand& o);
 
+// Cells are larger than leaves of a tree: boxes are compared four at a time, and a facet is listed
+// anew in each cell that it is in.
+constexpr std::size_t cell_factor = 2;
+
 constexpr std::uint64_t many_pairs = 20'000;
 constexpr std::uint64_t many_pairs_of_plane = 100;
 
@@ -319,7 +323,8 @@ void PairFinder::solve(CellTask& task) {
     stats_.depth = std::max(stats_.depth, task.depth);
     if (leave_out(task) && (search_.check != nullptr || !settle_plane(task))) {
         stats_.listed_polygons += task.size();
-        const bool large = task.size() > search_.options.leaf_polygons &&
+        const std::size_t factor = search_.check != nullptr ? 1 : cell_factor;
+        const bool large = task.size() > factor * search_.options.leaf_polygons &&
                            task.stalled < (pairs_of(task) > many_pairs ? 16 : 4);
         const auto splitter =
             large ? splitter_of(task, search_.options.splitting_offset, search_.has_long_facets)
