@@ -70,16 +70,17 @@ Box box_on_lattice(const Box& box, int shift) {
 
 }  // namespace
 
-std::shared_ptr<const Source> Source::share(Source* source) {
-    source->serial_ = next_serial();
+std::shared_ptr<const Source> Source::share(Source* source, std::uint64_t serial) {
+    source->serial_ = serial != 0 ? serial : next_serial();
     source->operand_ = static_cast<std::uint32_t>(source->serial_);
     source->retain();
     return {source, [](const Source* s) { s->release(); }};
 }
 
-std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threads) {
+std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threads,
+                                           std::uint64_t serial) {
     auto* s = new Source;
-    auto shared = share(s);
+    auto shared = share(s, serial);
     s->mesh_ = std::move(mesh);
     const std::span<const LatticePoint> points = s->mesh_.points;
     const ParallelParts parts(points.size(), threads, std::size_t{1} << 16);
