@@ -22,6 +22,7 @@ using Side = VertexSides::Side;
 using Part = BoundarySides::Part;
 
 constexpr std::uint32_t no_facet = ~std::uint32_t{0};
+constexpr std::size_t least_vertices = 16384;  // for a thread
 
 OutlineVertex first_corner(const ManyMeshes& meshes, std::uint32_t slot, std::uint32_t facet) {
     OutlineVertex out;
@@ -61,13 +62,13 @@ private:
 
 BesideBoundary::BesideBoundary(CommonPart& common, const ManyMeshes& meshes, const Solid& boundary,
                                std::span<const std::uint32_t> slots, std::uint32_t threads)
-    : common_(common), meshes_(meshes), sides_(common.store().view(boundary)) {
-    find_sides(common.store().view(boundary), slots, threads);
+    : common_(common), meshes_(meshes), threads_(threads), sides_(common.store().view(boundary)) {
+    find_sides(common.store().view(boundary), slots);
 }
 
-void BesideBoundary::find_sides(const OutlinedSolid& boundary, std::span<const std::uint32_t> slots,
-                                std::uint32_t threads) {
-    const ParallelParts ranges = parts_by_thread(slots.size(), threads, 64);
+void BesideBoundary::find_sides(const OutlinedSolid& boundary,
+                                std::span<const std::uint32_t> slots) {
+    const ParallelParts ranges = parts_by_thread(slots.size(), threads_, 64);
     std::vector<FacetsInCells> found(ranges.count(), FacetsInCells(meshes_, sides_));
     ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) found[range].add(slots[i]);
@@ -118,8 +119,11 @@ OutlineStore::Solid BesideBoundary::take(const Solid& solid) {
     for (const auto& part : parts) near.box.add(part->box);
     near.open_far_out = solid.open_far_out;
     const std::span vertices = std::span(store.vertices()).subspan(near.vertices);
-    known_.reserve(vertices.size());
-    for (const OutlineVertex& v : vertices) known_.push_back(side_at(v));
+    known_.resize(vertices.size());
+    ParallelParts(vertices.size(), threads_, least_vertices)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) known_[i] = side_at(vertices[i]);
+        });
     for (auto& part : parts) store.add_settled(std::move(part));
     return near;
 }

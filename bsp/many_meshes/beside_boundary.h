@@ -40,13 +40,13 @@ public:
     void drop(const Solid& result) const;
 
 private:
-    void find_sides(const OutlinedSolid& boundary, std::span<const std::uint32_t> slots,
-                    std::uint32_t threads);
+    void find_sides(const OutlinedSolid& boundary, std::span<const std::uint32_t> slots);
     [[nodiscard]] Solid join_near(SettledParts& parts) const;
     [[nodiscard]] Side side_at(const OutlineVertex& vertex) const;
 
     CommonPart& common_;
     const ManyMeshes& meshes_;
+    std::uint32_t threads_;
     BoundarySides sides_;
     PoolVector<Side> known_;
 };
