@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include <trisect/bsp/many_meshes/outlines/box_sum.h>
 #include <trisect/kernel/support/deep_recursion.h>
-#include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
@@ -25,8 +27,8 @@ constexpr std::size_t few_items = 280;
 // What a splitting plane may leave of the pairs; once in a row it may leave more.
 constexpr double worthy_part_of_pairs = 0.75;
 
-// Fewer items of a cell are not worth a thread of their own.
-constexpr std::size_t least_at_once = std::size_t{1} << 16;
+// So many are listed by cells of a grid first, which are solved by themselves.
+constexpr std::size_t least_in_grid = std::size_t{1} << 15;
 
 constexpr std::array<std::size_t, 2> second_first{1, 0};
 
@@ -105,16 +107,15 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
     stats_ = &stats;
     found_.clear();
     known_.clear();
-    all_known_.clear();
-    is_shared_ = options_.threads != 1 && near[0].size() + near[1].size() >= 2 * least_at_once;
-    Cell cell;
-    cell.bounds = SingleBox::everywhere();
     OutlineBox place = first.box;
     for (std::size_t k = 0; k < 3; ++k) {
         place.lo[k] = std::max(place.lo[k], second.box.lo[k]);
         place.hi[k] = std::min(place.hi[k], second.box.hi[k]);
     }
     place_ = SinglePlace(place.lo, place.hi);
+    if (near[0].size() + near[1].size() >= least_in_grid) return find_in_cells(near);
+    Cell cell;
+    cell.bounds = SingleBox::everywhere();
     for (std::size_t i = 0; i < 2; ++i) {
         cell.end[i] = near[i].size();
         if (items_[i].size() < near[i].size()) items_[i].resize(near[i].size());
@@ -124,8 +125,75 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
             *next++ = Item(place_.box(b.lo, b.hi), f);
         }
     }
-    if (!is_shared_) return solve(cell);
-    return isolated([&] { return solve(cell); });
+    return solve(cell);
+}
+
+// On threads, each part of the cells by a finder of its own; what is found is the same, in the same
+// order.
+bool CrossedFacetsFinder::find_in_cells(const Places& near) {
+    struct Part {
+        Part(const ManyMeshes& meshes, const EvaluateSettings& options)
+            : special(meshes.facet_count()), finder(meshes, options, special) {}
+        SpecialPosition special;
+        CrossedFacetsFinder finder;
+        EvaluateStats stats;
+        bool is_solved = true;
+    };
+    const PlacesInCells cells(solids_, near, place_);
+    const ParallelParts ranges(cells.cell_count(), options_.threads == 1 ? 1 : 0, 1);
+    std::vector<std::unique_ptr<Part>> parts(ranges.count());
+    ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
+        parts[range] = std::make_unique<Part>(meshes_, options_);
+        Part& part = *parts[range];
+        part.finder.solids_ = solids_;
+        part.finder.place_ = place_;
+        part.finder.stats_ = &part.stats;
+        part.finder.is_of_many_ = true;
+        for (std::size_t c = begin; c < end && part.is_solved; ++c)
+            part.is_solved = part.finder.solve_cell(cells, c);
+        part.finder.items_ = {};
+    });
+    std::size_t count = 0;
+    for (const auto& p : parts) count += p->finder.found_.size();
+    found_.reserve(count);
+    bool is_solved = true;
+    for (auto& p : parts) {
+        is_solved = is_solved && p->is_solved;
+        *stats_ += p->stats;
+        add(p->finder);
+        p.reset();
+    }
+    return is_solved;
+}
+
+bool CrossedFacetsFinder::solve_cell(const PlacesInCells& cells, std::size_t number) {
+    Cell cell;
+    cell.bounds = cells.bounds(number);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto entries = cells.of(i, number);
+        cell.end[i] = entries.size();
+        if (items_[i].size() < entries.size()) items_[i].resize(entries.size());
+        Item* next = items_[i].data();
+        for (const PlacesInCells::Entry& e : entries) {
+            const OutlineBox& b = solids_[i]->boxes[e.place()];
+            *next = Item(place_.box(b.lo, b.hi), e.place());
+            next++->set_shared(e.is_shared());
+        }
+    }
+    return solve(cell);
+}
+
+// What comes behind all of this.
+void CrossedFacetsFinder::add(const CrossedFacetsFinder& other) {
+    position_.add(other.position_);
+    auto many = other.many_cells_.begin();
+    for (std::uint32_t i = 0; i < other.found_.size(); ++i) {
+        const CrossedFacets& c = other.found_[i];
+        const bool may_be_known = many != other.many_cells_.end() && *many == i;
+        if (may_be_known) ++many;
+        if (!may_be_known || known_.insert({c.places[0], c.places[1]}, 0).second)
+            found_.push_back(c);
+    }
 }
 
 bool CrossedFacetsFinder::solve(Cell& cell) {
@@ -242,13 +310,6 @@ CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell)
 }
 
 bool CrossedFacetsFinder::divide(const Cell& cell, const Splitter& splitter) {
-    if (is_shared_ && cell.count() >= 2 * least_at_once) {
-        const Cell above = part_of(cell, splitter, true);
-        // Facets on both sides count twice: at least so many are below.
-        const std::size_t below = cell.count() - std::min(cell.count(), above.count());
-        if (std::min(above.count(), below) >= least_at_once)
-            return solve_at_once(cell, splitter, above);
-    }
     for (const bool above : {false, true}) {
         Cell part = part_of(cell, splitter, above);
         if (!solve(part)) return false;
@@ -286,43 +347,6 @@ void CrossedFacetsFinder::take_part(std::size_t solid, Cell& part, const Cell& c
     }
     part.first[solid] = cell.end[solid];
     part.end[solid] = static_cast<std::size_t>(next - all.data());
-}
-
-// Both sides at the same time, what is above by a finder of its own; what is found is the same, in
-// the same order.
-bool CrossedFacetsFinder::solve_at_once(const Cell& cell, const Splitter& splitter, Cell above) {
-    SpecialPosition special(meshes_.facet_count());
-    CrossedFacetsFinder other(meshes_, options_, special);
-    EvaluateStats made;
-    other.solids_ = solids_;
-    other.place_ = place_;
-    other.stats_ = &made;
-    other.is_shared_ = true;
-    for (std::size_t i = 0; i < 2; ++i) {
-        const auto items = items_of(above, i);
-        other.items_[i].assign(items.begin(), items.end());
-        above.first[i] = 0;
-        above.end[i] = items.size();
-    }
-    Cell below = part_of(cell, splitter, false);
-    std::array<bool, 2> are_solved{};
-    FirstFailure failure;
-    fork_join([&] { failure.guard(1, [&] { are_solved[1] = other.solve(above); }); },
-              [&] { failure.guard(0, [&] { are_solved[0] = solve(below); }); });
-    failure.rethrow();
-    *stats_ += made;
-    add(other);
-    return are_solved[0] && are_solved[1];
-}
-
-// What comes behind all of this.
-void CrossedFacetsFinder::add(const CrossedFacetsFinder& other) {
-    position_.add(other.position_);
-    for (const CrossedFacets& c : other.found_)
-        if (known_.find({c.places[0], c.places[1]}) < 0) found_.push_back(c);
-    for (const auto& places : other.all_known_)
-        if (known_.insert({places[0], places[1]}, 0).second && is_shared_)
-            all_known_.push_back(places);
 }
 
 bool CrossedFacetsFinder::compare(const Cell& cell) {
@@ -395,7 +419,7 @@ void CrossedFacetsFinder::keep(const Pair& pair, const std::array<FacetCrossing:
     }
     if (pair[0].is_shared() && pair[1].is_shared()) {
         if (!known_.insert({places[0], places[1]}, 0).second) return;
-        if (is_shared_) all_known_.push_back(places);
+        if (is_of_many_) many_cells_.push_back(static_cast<std::uint32_t>(found_.size()));
     }
     CrossedFacets& made = found_.emplace_back();
     made.places = places;

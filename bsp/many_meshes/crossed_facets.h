@@ -13,6 +13,7 @@
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/doubles/single_box.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
+#include <trisect/bsp/many_meshes/places_in_cells.h>
 #include <trisect/bsp/many_meshes/special_pairs.h>
 #include <trisect/bsp/many_meshes/whole_facet_pairs.h>
 #include <trisect/kernel/support/flat_map.h>
@@ -102,7 +103,8 @@ private:
     [[nodiscard]] Splitter splitter_of(const Cell& cell) const;
     [[nodiscard]] bool divide(const Cell& cell, const Splitter& splitter);
     [[nodiscard]] Cell part_of(const Cell& cell, const Splitter& splitter, bool above);
-    [[nodiscard]] bool solve_at_once(const Cell& cell, const Splitter& splitter, Cell above);
+    [[nodiscard]] bool find_in_cells(const Places& near);
+    [[nodiscard]] bool solve_cell(const PlacesInCells& cells, std::size_t number);
     void add(const CrossedFacetsFinder& other);
     void take_part(std::size_t solid, Cell& part, const Cell& cell, const Splitter& splitter,
                    bool above);
@@ -129,9 +131,9 @@ private:
     SinglePlace place_;                      // where both are
     std::array<PoolVector<Item>, 2> items_;  // of a cell and of those that it is a part of
     PoolVector<CrossedFacets> found_;
-    FlatMap known_;  // those that were found, where there are several cells
-    PoolVector<std::array<std::uint32_t, 2>> all_known_;
-    bool is_shared_ = false;  // among threads
+    FlatMap known_;                         // those that were found, where there are several cells
+    PoolVector<std::uint32_t> many_cells_;  // by number in found_, of those that may be found again
+    bool is_of_many_ = false;               // in a cell of a grid
     EvaluateStats* stats_ = nullptr;
     WholeFacetPairs pairs_;
     std::vector<std::uint32_t> planes_;  // across axes, of items of the second list and the first
