@@ -100,9 +100,10 @@ std::optional<Crossings> crossing_operands(
 std::optional<Crossings> crossings_of(const Residual& formula,
                                       std::span<const std::shared_ptr<const SolidState>> states,
                                       CrossingOperands kinds) {
-    std::optional<Crossings> out = crossing_operands(states, kinds);
     FlatFormula flat(states.size());
-    if (!out || !flat.read(formula)) return std::nullopt;
+    if (!flat.read(formula)) return std::nullopt;
+    std::optional<Crossings> out = crossing_operands(states, kinds);
+    if (!out) return std::nullopt;
     for (std::size_t i = 0; i < states.size(); ++i) {
         Crossings::Operand& o = out->operands[i];
         o.open = static_cast<std::int8_t>(1 - flat.decides(i));

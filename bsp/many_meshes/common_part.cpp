@@ -71,7 +71,8 @@ public:
             if (!find_sides(i)) return std::nullopt;
         }
         Solid out = keep(first, second);
-        store_.tidy(out);
+        // Where sides were known beforehand nothing is compared any more.
+        if (known.empty()) store_.tidy(out);
         return out;
     }
     [[nodiscard]] OutlineStore& store() {

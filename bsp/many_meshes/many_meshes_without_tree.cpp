@@ -425,24 +425,38 @@ private:
         stats += of_above;
         return out;
     }
-    // Each comes from the store of the thread that made it. A thread that waits makes other parts
-    // of the tree: nothing of its own is behind what it has in its store then.
+    // What is above comes from the store of the thread that made it. What is below stays where it
+    // is: a thread that waits makes other parts of the tree behind it, and takes them out.
     template <class Below, class Above>
     [[nodiscard]] Pair both_in_parallel(const Below& below_by, const Above& above_by) const {
-        using Taken = std::optional<std::pair<SettledParts, Solid>>;
-        Taken below;
-        Taken above;
-        const auto take = [&](const std::optional<Solid>& solid, Taken& to) {
-            if (solid) to.emplace(common().store().take_out(*solid), *solid);
-        };
+        std::optional<Solid> below;
+        std::optional<std::pair<SettledParts, Solid>> above;
         FirstFailure failure;
-        fork_join([&] { failure.guard(0, [&] { take(above_by(), above); }); },
-                  [&] { failure.guard(1, [&] { take(below_by(), below); }); });
+        fork_join(
+            [&] {
+                failure.guard(0, [&] {
+                    const std::optional<Solid> made = or_nothing(above_by);
+                    if (made) above.emplace(common().store().take_out(*made), *made);
+                });
+            },
+            [&] { failure.guard(1, [&] { below = or_nothing(below_by); }); });
         failure.rethrow();
         if (!below || !above) return {};
+        return {below, common().store().put(std::move(above->first), above->second)};
+    }
+    // Without leaving anything of what failed in the store, where others may follow.
+    template <class By>
+    [[nodiscard]] std::optional<Solid> or_nothing(const By& by) const {
         OutlineStore& store = common().store();
-        const Solid first = store.put(std::move(below->first), below->second);
-        return {first, store.put(std::move(above->first), above->second)};
+        const Solid before = store.empty_solid(true);
+        try {
+            std::optional<Solid> out = by();
+            if (!out) store.cut_off(before);
+            return out;
+        } catch (...) {
+            store.cut_off(before);
+            throw;
+        }
     }
     template <class Below, class Above>
     [[nodiscard]] std::optional<Solid> common_of(std::size_t facets, EvaluateStats& stats,
@@ -692,11 +706,14 @@ PoolVector<CutFacet> sort_facets(const Parts& parts, const Crossings& operands,
 
 // With vertices by their numbers among those of all parts.
 void add_cut_facets(OutlinedFacets& outlined, const Parts& parts, std::span<const CutFacet> cut,
-                    const ManyMeshes& meshes) {
-    std::size_t edges = 0;
-    for (const CutFacet& f : cut) edges += f.count;
+                    const ManyMeshes& meshes, std::uint32_t threads) {
     outlined.facets.reserve(cut.size());
-    outlined.edges.reserve(edges);
+    std::uint32_t edge_count = 0;
+    for (const CutFacet& f : cut) {
+        outlined.facets.push_back({f.number, edge_count, f.count});
+        edge_count += f.count;
+    }
+    outlined.edges.resize(edge_count);
     std::vector<std::uint32_t> first_vertices{0};
     for (const OutlinedSolid& p : parts)
         first_vertices.push_back(first_vertices.back() +
@@ -711,35 +728,37 @@ void add_cut_facets(OutlinedFacets& outlined, const Parts& parts, std::span<cons
         for (const OutlinedSolid::Edge& e : parts[f.part].edges.subspan(f.first, f.count))
             __builtin_prefetch(e.origin.line());
     };
-    std::size_t number = 0;
-    for (const CutFacet& f : cut) {
-        look_ahead(number++);
-        outlined.facets.push_back(
-            {f.number, static_cast<std::uint32_t>(outlined.edges.size()), f.count});
-        const std::span<const OutlinedSolid::Edge> of_part = parts[f.part].edges;
+    const auto add = [&](const CutFacet& f, OutlinedFacets::Edge* out) {
         const std::uint32_t vertex = first_vertices[f.part];
-        for (std::size_t i = f.first; i < std::size_t{f.first} + f.count; ++i) {
-            const OutlinedSolid::Edge& e = of_part[i];
+        for (const OutlinedSolid::Edge& e : parts[f.part].edges.subspan(f.first, f.count)) {
             const FacetCrossing* line = e.origin.line();
             const std::uint32_t cutter =
                 line == nullptr ? 0 : line->facets[line->facets[0] == f.number ? 1 : 0];
-            const std::uint32_t cutter_slot = meshes.slot_of(cutter);
-            const bool open_below = line != nullptr && meshes.is_open_below(cutter_slot, f.slot);
-            outlined.edges.push_back(
-                {vertex + e.from, vertex + e.to, cutter, e.origin.own(), open_below});
+            const bool open_below =
+                line != nullptr && meshes.is_open_below(meshes.slot_of(cutter), f.slot);
+            *out++ = {vertex + e.from, vertex + e.to, cutter, e.origin.own(), open_below};
         }
-    }
+    };
+    constexpr std::size_t least_facets = 8192;
+    ParallelParts(cut.size(), threads, least_facets)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                look_ahead(i);
+                add(cut[i], outlined.edges.data() + outlined.facets[i].first);
+            }
+        });
 }
 
 // By what assembly needs.
 UndividedMeshes form_of(const OutlineStore& store, const ManyMeshes& meshes,
-                        const Crossings& operands, std::shared_ptr<const LazyTree> tree) {
+                        const Crossings& operands, std::shared_ptr<const LazyTree> tree,
+                        std::uint32_t threads) {
     UndividedMeshes out;
     for (std::size_t i = 0; i < meshes.sources.size(); ++i)
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
     auto outlined = std::make_shared<OutlinedFacets>();
     const Parts parts = parts_of(store);
-    add_cut_facets(*outlined, parts, sort_facets(parts, operands, out), meshes);
+    add_cut_facets(*outlined, parts, sort_facets(parts, operands, out), meshes, threads);
     take_vertices(*outlined, parts);
     out.outlined = std::move(outlined);
     out.crossings = std::make_shared<const Crossings>(operands);
@@ -854,21 +873,23 @@ bool are_nested(const SolidStates& solids) {
 namespace {
 
 // The box is that of all operands, also those that are left out.
-ManyMeshes meshes_of(const Operands& operands, const Box& all) {
+ManyMeshes meshes_of(const Operands& operands, const Box& all, std::uint32_t threads) {
     ManyMeshes out;
     out.nested = operands.nested ? &*operands.nested : nullptr;
     out.neighbours_come_first = operands.neighbours_come_first;
     out.operands = &operands.crossings;
+    std::vector<const LatticeMesh*> meshes;
     std::size_t facets = 0;
-    for (const auto& s : operands.solids) facets += source_of(*s).facet_count();
-    out.slots.reserve(facets);
-    out.planes.reserve(facets);
     for (const auto& s : operands.solids) {
-        const auto slot = static_cast<std::uint32_t>(out.sources.size());
-        out.sources.push_back(&source_of(*s));
-        out.slots.insert(out.slots.end(), source_of(*s).facet_count(), slot);
-        out.planes.add(source_of(*s).mesh());
+        const Source& source = source_of(*s);
+        out.sources.push_back(&source);
+        meshes.push_back(&source.mesh());
+        facets += source.facet_count();
     }
+    out.slots.reserve(facets);
+    for (std::uint32_t slot = 0; slot < meshes.size(); ++slot)
+        out.slots.insert(out.slots.end(), meshes[slot]->triangles.size(), slot);
+    out.planes.add_all(meshes, threads);
     for (std::size_t k = 0; k < 3; ++k)
         out.extent[k] = static_cast<double>(all.hi[k] - all.lo[k] + 2);
     return out;
@@ -881,7 +902,7 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
     Operands operands = operands_of(*formula, solids, options.threads);
     Box all;
     for (const auto& s : solids) all.add(source_of(*s).box());
-    ManyMeshes meshes = meshes_of(operands, all);
+    ManyMeshes meshes = meshes_of(operands, all, options.threads);
     EvaluateStats made;
     auto result = on_threads(options.threads, [&](std::uint32_t threads) {
         return isolated(
@@ -889,7 +910,8 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
     });
     if (!result) return std::nullopt;
     operands.crossings.special = std::move(result->special);
-    UndividedMeshes form = form_of(result->store, meshes, operands.crossings, std::move(tree));
+    UndividedMeshes form =
+        form_of(result->store, meshes, operands.crossings, std::move(tree), options.threads);
     form.may_have_straight_crossings = operands.nested && !operands.crossings.special.empty();
     form.may_have_sheets = result->has_sheets;
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();

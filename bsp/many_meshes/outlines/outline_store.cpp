@@ -10,6 +10,12 @@ namespace trisect::detail {
 
 namespace {
 
+// Of so many facets edges and vertices get room at once, as of this many at most: what is not
+// touched costs nothing, and an array that grows lies in new memory. Operands come and go, so that
+// a store seldom has all.
+constexpr std::size_t many_facets = std::size_t{1} << 20;
+constexpr std::size_t most_reserved = std::size_t{1} << 22;
+
 // Of corners, which have no errors.
 OutlineBox box_of(const Vector3& a, const Vector3& b, const Vector3& c) {
     BoxSum out({a, a});
@@ -24,6 +30,10 @@ void OutlineStore::reserve(const ManyMeshes& meshes) {
     const std::size_t facets = meshes.facet_count();
     facets_.reserve(facets);
     boxes_.reserve(facets);
+    if (facets < many_facets || edges_.capacity() != 0) return;
+    const std::size_t some = std::min(facets, most_reserved);
+    edges_.reserve(3 * some);
+    vertices_.reserve(some);
 }
 
 OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
@@ -182,6 +192,7 @@ void OutlineStore::tidy(Solid& solid) {
     if (2 * solid.unused_edges <= edges_.size() - solid.edges) return;
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     tidy_edges_.clear();
+    tidy_edges_.reserve(edges_.size() - solid.edges - solid.unused_edges);
     for (std::size_t i = solid.facets; i < facets_.size(); ++i) {
         Facet& f = facets_[i];
         const auto own = std::span(edges_).subspan(f.first, f.count);

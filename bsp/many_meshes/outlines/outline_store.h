@@ -48,6 +48,8 @@ public:
 
     /// Takes the last solid out: its settled parts, and behind them what is not settled.
     [[nodiscard]] SettledParts take_out(const Solid& solid);
+    /// Takes away the solid and all behind it.
+    void cut_off(const Solid& solid);
     /// Adds such a one.
     [[nodiscard]] Solid put(SettledParts parts, const Solid& solid);
     /// To the last solid, from whose facets it is gone.
@@ -81,8 +83,6 @@ public:
     [[nodiscard]] Lines take_lines() { return std::move(lines_); }
 
 private:
-    void cut_off(const Solid& solid);
-
     PoolVector<Facet> facets_;
     PoolVector<OutlineBox> boxes_;
     PoolVector<Edge> edges_;

@@ -19,6 +19,7 @@
 #include <trisect/bsp/many_meshes/outlines/operand_shifts.h>
 #include <trisect/bsp/many_meshes/outlines/planes_across_axes.h>
 #include <trisect/kernel/number/vector3.h>
+#include <trisect/kernel/support/pool_allocator.h>
 
 namespace trisect::detail {
 
@@ -27,7 +28,7 @@ namespace trisect::detail {
 struct ManyMeshes {
     const Crossings* operands = nullptr;  ///< without pairs
     std::vector<const Source*> sources;   ///< by slot
-    std::vector<std::uint32_t> slots;     ///< by facet
+    PoolVector<std::uint32_t> slots;      ///< by facet
     PlanesAcrossAxes planes;
     Vector3 extent{};  ///< of all together
     const OperandShifts* shifts = nullptr;

@@ -28,17 +28,25 @@ constexpr std::size_t least_part = 8;
 // A copy of facets of a solid, with those vertices that they have.
 class PartCopy {
 public:
-    // For so many facets and edges.
-    PartCopy(const OutlineStore& store, const OutlineStore::Solid& solid, std::size_t facets,
-             std::size_t edges)
+    // For those facets.
+    PartCopy(const OutlineStore& store, const OutlineStore::Solid& solid,
+             std::span<const std::uint32_t> places)
         : solid_(store.view(solid)),
           first_vertex_(static_cast<std::uint32_t>(solid.vertices)),
           numbers_(solid_.vertices.size() - solid.vertices, none),
           part_(std::make_unique<SettledPart>()) {
-        part_->facets.reserve(facets);
-        part_->boxes.reserve(facets);
+        // There are many parts: what they do not use would be a good part of all memory.
+        std::size_t edges = 0;
+        std::size_t vertices = 0;
+        for (const std::uint32_t f : places) {
+            edges += solid_.facets[f].count;
+            for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[f]))
+                if (std::exchange(numbers_[e.from - first_vertex_], wanted) == none) ++vertices;
+        }
+        part_->facets.reserve(places.size());
+        part_->boxes.reserve(places.size());
         part_->edges.reserve(edges);
-        part_->vertices.reserve(std::min(numbers_.size(), edges / 4));
+        part_->vertices.reserve(vertices);
     }
     void add(std::size_t place) {
         const OutlinedSolid::Facet& f = solid_.facets[place];
@@ -65,15 +73,16 @@ public:
     // Of a vertex of the solid, if the part has it; else null.
     [[nodiscard]] OutlineVertex* vertex(std::uint32_t v) {
         const std::uint32_t number = numbers_[v - first_vertex_];
-        return number == none ? nullptr : &part_->vertices[number];
+        return number >= wanted ? nullptr : &part_->vertices[number];
     }
     [[nodiscard]] std::unique_ptr<SettledPart> take() { return std::move(part_); }
 
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr std::uint32_t wanted = none - 1;  // it has no number yet
     [[nodiscard]] std::uint32_t number(std::uint32_t vertex) {
         std::uint32_t& number = numbers_[vertex - first_vertex_];
-        if (number == none) {
+        if (number == wanted) {
             number = static_cast<std::uint32_t>(part_->vertices.size());
             part_->vertices.push_back(solid_.vertices[vertex]);
         }
@@ -130,14 +139,10 @@ void settle_those(OutlineStore& store, OutlineStore::Solid& solid, const Settles
     const auto has_outline = [&](std::size_t f) {
         return !how.leaves_outlines || !all.facets[f].whole || sides[f] == OutlineSide::Unknown;
     };
-    std::size_t facets = 0;
-    std::size_t edges = 0;
-    for (std::size_t f = 0; f < settles.size(); ++f) {
-        if (settles[f] == 0 || !has_outline(f)) continue;
-        ++facets;
-        edges += all.facets[f].count;
-    }
-    PartCopy part(store, solid, facets, edges);
+    PoolVector<std::uint32_t> outlined;
+    for (std::uint32_t f = 0; f < settles.size(); ++f)
+        if (settles[f] != 0 && has_outline(f)) outlined.push_back(f);
+    PartCopy part(store, solid, outlined);
     for (const OutlineSide side : {OutlineSide::Open, OutlineSide::Closed, OutlineSide::Unknown}) {
         for (std::size_t f = 0; f < settles.size(); ++f) {
             if (settles[f] == 0 || sides[f] != side) continue;
@@ -244,8 +249,9 @@ void settle_rest(OutlineStore& store, OutlineStore::Solid& solid, const Settling
 }
 
 void JoinedParts::reserve(std::size_t facets, std::size_t edges, std::size_t vertices) {
+    // With room for what is cut next.
     const auto reserve_more = [](auto& items, std::size_t more) {
-        if (items.size() + more > items.capacity()) items.reserve(items.size() + more);
+        if (items.size() + more > items.capacity()) items.reserve(items.size() + more + more / 4);
     };
     reserve_more(store_.facets(), facets);
     reserve_more(store_.boxes(), facets);
