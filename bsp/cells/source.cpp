@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <trisect/bsp/cells/serial_scope.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/bounded_int.h>
@@ -21,8 +22,11 @@ namespace trisect::detail {
 namespace {
 
 std::atomic<std::uint64_t> last_serial{0};
+thread_local std::uint64_t serial_in_scope = 0;  // none
 
-std::uint64_t next_serial() { return ++last_serial; }
+std::uint64_t next_serial() {
+    return serial_in_scope != 0 ? std::exchange(serial_in_scope, 0) : ++last_serial;
+}
 
 struct Extent {
     Box box;
@@ -70,17 +74,20 @@ Box box_on_lattice(const Box& box, int shift) {
 
 }  // namespace
 
-std::shared_ptr<const Source> Source::share(Source* source, std::uint64_t serial) {
-    source->serial_ = serial != 0 ? serial : next_serial();
+SerialScope::SerialScope(std::uint64_t serial) { serial_in_scope = serial; }
+
+SerialScope::~SerialScope() { serial_in_scope = 0; }
+
+std::shared_ptr<const Source> Source::share(Source* source) {
+    source->serial_ = next_serial();
     source->operand_ = static_cast<std::uint32_t>(source->serial_);
     source->retain();
     return {source, [](const Source* s) { s->release(); }};
 }
 
-std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threads,
-                                           std::uint64_t serial) {
+std::shared_ptr<const Source> Source::make(LatticeMesh mesh, std::uint32_t threads) {
     auto* s = new Source;
-    auto shared = share(s, serial);
+    auto shared = share(s);
     s->mesh_ = std::move(mesh);
     const std::span<const LatticePoint> points = s->mesh_.points;
     const ParallelParts parts(points.size(), threads, std::size_t{1} << 16);

@@ -29,9 +29,7 @@ namespace trisect::detail {
 /// it, so that a long chain of operations keeps exactly the sources that are still visible.
 class Source {
 public:
-    /// `serial` is one of take_serials(), or 0 for the next one.
-    static std::shared_ptr<const Source> make(LatticeMesh mesh, std::uint32_t threads = 1,
-                                              std::uint64_t serial = 0);
+    static std::shared_ptr<const Source> make(LatticeMesh mesh, std::uint32_t threads = 1);
     /// The half-space below `plane`.
     static std::shared_ptr<const Source> half_space(const Plane& plane, Lattice lattice);
     /// One facet for each plane; all that is listed of them lies in the box.
@@ -152,7 +150,7 @@ public:
 private:
     Source() = default;
     ~Source() = default;
-    static std::shared_ptr<const Source> share(Source* source, std::uint64_t serial = 0);
+    static std::shared_ptr<const Source> share(Source* source);
     [[nodiscard]] std::shared_ptr<const Source> planes_on_lattice(int exponent) const;
     [[noreturn]] void refuse_lattice(int exponent, const std::string& why) const;
     [[nodiscard]] int edge_axis(const Plane& support) const;

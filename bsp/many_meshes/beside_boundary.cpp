@@ -100,7 +100,7 @@ OutlineStore::Solid BesideBoundary::join_near(SettledParts& parts) const {
             edges += part->facets[f].count;
         }
     JoinedParts near(common_.store());
-    near.reserve(facets, edges, edges / 3);
+    near.reserve(facets, edges, edges / 3, threads_);
     for (const auto& part : parts) {
         if (part->far == part->facets.size()) continue;
         near.begin(*part);

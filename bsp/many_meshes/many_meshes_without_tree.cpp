@@ -47,6 +47,7 @@
 #include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/task_group.h>
 #include <trisect/kernel/support/thread_pool.h>
+#include <trisect/kernel/support/touched_room.h>
 
 namespace trisect::detail {
 
@@ -629,14 +630,15 @@ Parts parts_of(const OutlineStore& store) {
 }
 
 // Those vertices of parts that are wanted: most are of whole facets.
-void take_vertices(OutlinedFacets& outlined, const Parts& parts) {
+void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t threads) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::size_t all = 0;
     for (const OutlinedSolid& p : parts) all += p.vertices.size();
     PoolVector<std::uint32_t> numbers(all, unused);
     for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
-    outlined.vertices.reserve(
-        static_cast<std::size_t>(std::ranges::count(numbers, std::uint32_t{0})));
+    reserve_touched(outlined.vertices,
+                    static_cast<std::size_t>(std::ranges::count(numbers, std::uint32_t{0})),
+                    threads);
     FlatMap shared;
     std::uint32_t* number = numbers.data();
     const auto take = [&](const OutlineVertex& v) {
@@ -759,7 +761,7 @@ UndividedMeshes form_of(const OutlineStore& store, const ManyMeshes& meshes,
     auto outlined = std::make_shared<OutlinedFacets>();
     const Parts parts = parts_of(store);
     add_cut_facets(*outlined, parts, sort_facets(parts, operands, out), meshes, threads);
-    take_vertices(*outlined, parts);
+    take_vertices(*outlined, parts, threads);
     out.outlined = std::move(outlined);
     out.crossings = std::make_shared<const Crossings>(operands);
     out.tree = std::move(tree);

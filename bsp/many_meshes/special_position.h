@@ -3,6 +3,7 @@
 // SpecialPosition: facets of many meshes that touch, and moves that are wanted.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -25,7 +26,10 @@ public:
     [[nodiscard]] bool has(std::uint32_t facet) const {
         return !marks_.empty() && marks_[facet] != 0;
     }
-    void want(const OperandShifts::Wanted& wanted);
+    void want(const OperandShifts::Wanted& wanted) {
+        const auto at = std::ranges::lower_bound(wanted_, wanted);
+        if (at == wanted_.end() || *at != wanted) wanted_.insert(at, wanted);
+    }
     /// What was found of other facets.
     void add(const SpecialPosition& other) {
         for (const std::uint32_t f : other.facets_) note(f);

@@ -121,10 +121,10 @@ EmbeddingFindings findings_of(const LatticeMesh& mesh, Embedding embedding) {
 }
 
 Solid of_lattice_mesh(LatticeMesh mesh, EmbeddingFindings findings, std::uint32_t threads,
-                      bool t_edges = false, std::uint64_t serial = 0) {
+                      bool t_edges = false) {
     if (mesh.triangles.empty()) return {};
     const Lattice lattice = mesh.lattice;
-    auto source = detail::Source::make(std::move(mesh), threads, serial);
+    auto source = detail::Source::make(std::move(mesh), threads);
     if (findings.kinds)
         source = detail::Source::of_kinds(std::move(source), *std::move(findings.kinds));
     auto state = std::make_shared<SolidState>();
@@ -137,13 +137,13 @@ Solid of_lattice_mesh(LatticeMesh mesh, EmbeddingFindings findings, std::uint32_
 }
 
 Solid of_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out,
-                std::uint32_t threads, std::uint64_t serial = 0) {
+                std::uint32_t threads) {
     if (!imported.report.closed) throw InvalidSolid(imported.report.defects);
     if (imported.report.inside_out) detail::require_accepted(embedding, inside_out);
     if (imported.mesh.triangles.empty()) return {};
     EmbeddingFindings findings = findings_of(imported.mesh, embedding);
     return of_lattice_mesh(std::move(imported.mesh), std::move(findings), threads,
-                           imported.report.t_edges != 0, serial);
+                           imported.report.t_edges != 0);
 }
 
 // One on which the plane is some 2^24 units from the origin, so that points near its foot have
@@ -202,11 +202,6 @@ Solid Solid::from_lattice_mesh(LatticeMesh mesh, Embedding embedding) {
 
 Solid solid_of_findings(LatticeMesh mesh, EmbeddingFindings findings) {
     return of_lattice_mesh(std::move(mesh), std::move(findings), 1);
-}
-
-Solid solid_of_import(ImportedMesh imported, Embedding embedding, InsideOut inside_out,
-                      std::uint64_t serial) {
-    return of_import(std::move(imported), embedding, inside_out, 1, serial);
 }
 
 Solid Solid::from_mesh(const PolygonMesh& mesh, const SolidOptions& options) {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include <trisect/brep/import_mesh.h>
+#include <trisect/bsp/cells/serial_scope.h>
 #include <trisect/bsp/cells/source.h>
-#include <trisect/bsp/solid_of_findings.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/ready_memory.h>
 
@@ -67,8 +67,9 @@ std::vector<Solid> solids_of_meshes(std::span<const PolygonMesh> meshes,
     parts.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if ((i - begin) % meshes_of_room == 0) room.make_ready();
-            out[i] = solid_of_import(import_mesh(meshes[i], import), options.embedding,
-                                     options.inside_out, serial + i);
+            ImportedMesh imported = import_mesh(meshes[i], import);
+            const detail::SerialScope scope(serial + i);
+            out[i] = Solid::from_import(std::move(imported), options.embedding, options.inside_out);
         }
     });
     return out;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -85,7 +86,10 @@ struct OutlineBox {
     Vector3 hi{};
 
     /// A box that any other one enlarges.
-    [[nodiscard]] static OutlineBox none();
+    [[nodiscard]] static OutlineBox none() {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    }
     void add(const Approximation& p) {
         const double rounding = rounding_of(p);
         for (std::size_t k = 0; k < 3; ++k) {

@@ -14,6 +14,8 @@
 #include <span>
 #include <utility>
 
+#include <trisect/kernel/support/touched_room.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -248,10 +250,12 @@ void settle_rest(OutlineStore& store, OutlineStore::Solid& solid, const Settling
     store.tidy(solid);
 }
 
-void JoinedParts::reserve(std::size_t facets, std::size_t edges, std::size_t vertices) {
+void JoinedParts::reserve(std::size_t facets, std::size_t edges, std::size_t vertices,
+                          std::uint32_t threads) {
     // With room for what is cut next.
-    const auto reserve_more = [](auto& items, std::size_t more) {
+    const auto reserve_more = [threads](auto& items, std::size_t more) {
         if (items.size() + more > items.capacity()) items.reserve(items.size() + more + more / 4);
+        reserve_touched(items, more, threads);
     };
     reserve_more(store_.facets(), facets);
     reserve_more(store_.boxes(), facets);
@@ -299,7 +303,7 @@ void join_settled(OutlineStore& store, OutlineStore::Solid& solid) {
         vertices += p->vertices.size();
     }
     JoinedParts joined(store);
-    joined.reserve(facets, edges, vertices);
+    joined.reserve(facets, edges, vertices, 1);
     for (auto& p : parts) {
         joined.begin(*p);
         for (std::size_t f = 0; f < p->facets.size(); ++f) joined.add(*p, f);

@@ -41,8 +41,9 @@ private:
 class JoinedParts {
 public:
     explicit JoinedParts(OutlineStore& store) : store_(store), solid_(store.empty_solid(true)) {}
-    /// For so many more.
-    void reserve(std::size_t facets, std::size_t edges, std::size_t vertices);
+    /// For so many more. `threads` as for ParallelParts.
+    void reserve(std::size_t facets, std::size_t edges, std::size_t vertices,
+                 std::uint32_t threads);
     /// The part of which facets follow.
     void begin(const SettledPart& part);
     void add(const SettledPart& part, std::size_t place);

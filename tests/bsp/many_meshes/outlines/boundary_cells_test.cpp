@@ -61,6 +61,58 @@ TEST(BoundaryCells, InsideAndOutsideOfASphere) {
     EXPECT_EQ(cells.part_of(around({1e9, -1e9, 0}, 1)), BoundaryCells::outside);
 }
 
+// Walls around two rooms in a row, of small boxes; the wall between them has a hole if wanted.
+BoundaryCells two_rooms(bool has_hole) {
+    BoundaryCells cells(around({0, 0, 0}, 64), 500);
+    for (double x = -60; x <= 60; x += 2)
+        for (double y = -30; y <= 30; y += 2)
+            for (double z = -30; z <= 30; z += 2) {
+                const bool is_side = std::abs(y) == 30 || std::abs(z) == 30 || std::abs(x) == 60;
+                const bool is_hole = has_hole && std::abs(y) <= 6 && std::abs(z) <= 6;
+                if (is_side || (x == 0 && !is_hole)) cells.occupy(around({x, y, z}, 1));
+            }
+    cells.find_parts();
+    return cells;
+}
+
+TEST(BoundaryCells, RoomsHangTogetherByAHoleAlone) {
+    for (const bool has_hole : {false, true}) {
+        const BoundaryCells cells = two_rooms(has_hole);
+        const BoundaryCells::Part left = cells.part_of(around({-30, 0, 0}, 1));
+        const BoundaryCells::Part right = cells.part_of(around({30, 0, 0}, 1));
+        EXPECT_NE(left, BoundaryCells::occupied);
+        EXPECT_NE(left, BoundaryCells::outside);
+        EXPECT_NE(right, BoundaryCells::outside);
+        EXPECT_EQ(left == right, has_hole);
+        EXPECT_EQ(cells.part_count(), has_hole ? 3U : 4U);
+        EXPECT_EQ(cells.part_of(around({0, 20, 0}, 1)), BoundaryCells::occupied);
+        EXPECT_EQ(cells.part_of(around({0, 0, 63}, 1)), BoundaryCells::outside);
+    }
+}
+
+// A box beside a facet, in the same cell, is not beside it in small ones.
+TEST(BoundaryCells, SmallCellsSayMoreThanTheirCell) {
+    BoundaryCells cells(around({0, 0, 0}, 100), 0);
+    cells.occupy(around({0, 0, 0}, 1));
+    cells.find_parts();
+    EXPECT_EQ(cells.part_of(around({0, 0, 0}, 0.5)), BoundaryCells::occupied);
+    EXPECT_EQ(cells.part_of(around({70, 70, 70}, 20)), BoundaryCells::outside);
+    EXPECT_EQ(cells.part_of(around({0, 70, 0}, 20)), BoundaryCells::outside);
+}
+
+// What is enclosed in small cells alone is no part.
+TEST(BoundaryCells, APocketIsNoPart) {
+    BoundaryCells cells(around({0, 0, 0}, 128), 8);
+    for (double x = -8; x <= 8; x += 2)
+        for (double y = -8; y <= 8; y += 2)
+            for (double z = -8; z <= 8; z += 2)
+                if (std::abs(x) == 8 || std::abs(y) == 8 || std::abs(z) == 8)
+                    cells.occupy(around({x, y, z}, 1));
+    cells.find_parts();
+    EXPECT_EQ(cells.part_count(), 2U);
+    EXPECT_EQ(cells.part_of(around({0, 0, 0}, 0.5)), BoundaryCells::occupied);
+}
+
 TEST(ClearBox, HasNothingThatABoxMeets) {
     std::mt19937 random(20312);
     std::uniform_int_distribution<std::int64_t> at(0, 10000);
