@@ -17,6 +17,7 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/number/bounded_int.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/power_of_two.h>
 #include <trisect/kernel/number/vector3.h>
@@ -26,6 +27,7 @@ namespace trisect {
 
 using detail::cross;
 using detail::determinant_rounding;
+using detail::DoublePair;
 using detail::largest_component;
 using detail::power_of_two;
 using detail::Vector3;
@@ -75,10 +77,16 @@ double residual(const Plane& plane, const std::array<std::int64_t, 3>& c, int k,
                              : wide(std::integral_constant<int, 8>());
 }
 
-// Three planes n·x + d = 0, in doubles.
+// Three planes n·x + d = 0, in doubles. `size` is |d|, and where d may be off by more than its
+// roundings 1 / determinant_rounding times that: so bounds that are proportional to it have both.
 struct System {
-    std::array<Vector3, 3> n;
-    Vector3 d;
+    std::array<Vector3, 3> n{};
+    Vector3 d{};
+    Vector3 size{};
+    void set_offset(std::size_t row, double offset, double error = 0) {
+        d[row] = offset;
+        size[row] = std::fabs(offset) + error * (1 / determinant_rounding);
+    }
 };
 
 // How far the determinants of Cramer's rule may be off. Coefficients carry one rounding each,
@@ -94,8 +102,7 @@ Bounds rough_bounds(const System& s) {
     const double q = sum_of_magnitudes(s.n[1]);
     const double r = sum_of_magnitudes(s.n[2]);
     const double x =
-        determinant_rounding *
-        (std::fabs(s.d[0]) * (q * r) + std::fabs(s.d[1]) * (r * p) + std::fabs(s.d[2]) * (p * q));
+        determinant_rounding * (s.size[0] * (q * r) + s.size[1] * (r * p) + s.size[2] * (p * q));
     return {determinant_rounding * (p * q * r), {x, x, x}};
 }
 
@@ -111,7 +118,7 @@ Bounds sharp_bounds(const System& s) {
             const std::size_t l = (i + 2) % 3;
             const double minor =
                 determinant_rounding * (std::fabs(a[j] * b[l]) + std::fabs(a[l] * b[j]));
-            out.x[i] += std::fabs(s.d[k]) * minor;
+            out.x[i] += s.size[k] * minor;
             if (k == 0) out.w += std::fabs(s.n[0][i]) * minor;
         }
     }
@@ -189,16 +196,20 @@ std::optional<Vector3> nearest_by(const System& system, const NearPoint& near) {
     return nearest;
 }
 
+void add_made_plane(const Plane& plane, const NearPoint& near, std::size_t row, System& system) {
+    system.n[row] = normal_of(plane);
+    system.set_offset(row, residual(plane, near.c, near.k, near.reach));
+}
+
 std::optional<Vector3> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
                                         const Plane& r) {
     const auto near = near_point(a);
     if (!near) return std::nullopt;
-    const auto residual_of = [&](const Plane& plane) {
-        return residual(plane, near->c, near->k, near->reach);
-    };
-    return nearest_by({{normal_of(p), normal_of(q), normal_of(r)},
-                       {residual_of(p), residual_of(q), residual_of(r)}},
-                      *near);
+    System system;
+    add_made_plane(p, *near, 0, system);
+    add_made_plane(q, *near, 1, system);
+    add_made_plane(r, *near, 2, system);
+    return nearest_by(system, *near);
 }
 
 // Of at most 126 bits, within two roundings.
@@ -207,7 +218,8 @@ double signed_to_double(Uint128 v) { return (v >> 127) != 0 ? -to_double(-v) : t
 // The normal, of at most 109 bits, and the residual as above, of which the way from a corner does
 // not change anything. Normals carry two roundings, too: with that determinants are within 14 u.
 // False where the residual may have more than 126 bits.
-bool add_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row, System& system) {
+bool add_whole_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row,
+                     System& system) {
     const LatticePoint& a = *plane.corners[0];
     const auto way = [&](std::size_t corner, std::size_t k) {
         const auto axis = static_cast<int>(k);
@@ -233,8 +245,83 @@ bool add_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row,
         sum += static_cast<Uint128>(n[i]) * from;
         system.n[row][i] = signed_to_double(static_cast<Uint128>(n[i]));
     }
-    system.d[row] = signed_to_double(sum);
+    system.set_offset(row, signed_to_double(sum));
     return sum_of_magnitudes(system.n[row]) * near.reach < 0x1p125;
+}
+
+using PairVector = std::array<DoublePair, 3>;
+
+// to - from in pairs: exact.
+PairVector way_in_pairs(const Vector3& from, const Vector3& to) {
+    PairVector out;
+    for (std::size_t i = 0; i < 3; ++i) out[i] = detail::two_sum(to[i], -from[i]);
+    return out;
+}
+
+// A normal in pairs, and for each component the sum of the magnitudes of its two products, of which
+// it is off by less than 2^-101.
+struct PairNormal {
+    PairVector n{};
+    Vector3 size{};
+};
+
+// A product is off by 2^-102 of itself, their difference by 2^-103 of both. Where equal products
+// are subtracted, 0 is exact. False where too little is left of a component: less than 2^-47 of
+// its size, by which an error of 2^-101 is one of half a rounding.
+bool normal_in_pairs(const PairVector& u, const PairVector& v, PairNormal& out) {
+    const auto are_same = [](const DoublePair& a, const DoublePair& b) {
+        return a.high == b.high && a.low == b.low;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        out.size[k] = std::fabs(u[i].high * v[j].high) + std::fabs(u[j].high * v[i].high);
+        if (are_same(u[i], v[i]) && are_same(u[j], v[j])) continue;
+        out.n[k] = detail::subtract(detail::multiply(u[i], v[j]), detail::multiply(u[j], v[i]));
+        if (std::fabs(out.n[k].high) < 0x1p-47 * out.size[k]) return false;
+    }
+    return true;
+}
+
+// The same of corners with bits behind the point. The way from a corner, in units of 2^-k, is
+// exact. Its product with the normal is off by 2^-101 of the sum of the magnitudes of all products
+// for the normal, by 2^-102 of it for the multiplications and for the two additions: in all by less
+// than 2^-100, and 2^-99 pays for the roundings of that sum.
+bool add_fine_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row,
+                    System& system) {
+    const Vector3 a = plane.corners[0]->doubles();
+    const PairVector u = way_in_pairs(a, plane.corners[1]->doubles());
+    PairNormal normal;
+    if (plane.axis < 0) {
+        if (!normal_in_pairs(u, way_in_pairs(a, plane.corners[2]->doubles()), normal)) return false;
+    } else {
+        const std::size_t i = (static_cast<std::size_t>(plane.axis) + 1) % 3;
+        const std::size_t j = (i + 1) % 3;
+        normal.n[i] = u[j];
+        normal.n[j] = detail::negated(u[i]);
+        normal.size[i] = std::fabs(u[j].high);
+        normal.size[j] = std::fabs(u[i].high);
+    }
+    const double scale = power_of_two(near.k);
+    DoublePair sum;
+    double size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const DoublePair way = detail::two_sum(static_cast<double>(near.c[i]), -(a[i] * scale));
+        sum = detail::add(sum, detail::multiply(normal.n[i], way));
+        size += normal.size[i] * std::fabs(way.high);
+        system.n[row][i] = normal.n[i].high;
+    }
+    system.set_offset(row, sum.high, 0x1p-99 * size);
+    return true;
+}
+
+bool add_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row, System& system) {
+    if (plane.made != nullptr) {
+        add_made_plane(*plane.made, near, row, system);
+        return true;
+    }
+    return plane.is_whole ? add_whole_plane(plane, near, row, system)
+                          : add_fine_plane(plane, near, row, system);
 }
 
 }  // namespace
@@ -303,7 +390,7 @@ std::optional<std::array<double, 3>> nearest_doubles(const Approximation& approx
                                                      const std::array<CornerPlane, 3>& planes) {
     const auto near = near_point(approximation);
     if (!near) return std::nullopt;
-    System system{};
+    System system;
     for (std::size_t i = 0; i < 3; ++i)
         if (!add_plane(planes[i], *near, i, system)) return std::nullopt;
     const auto nearest = nearest_by(system, *near);

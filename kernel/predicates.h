@@ -70,10 +70,12 @@ struct Approximation {
 /// A plane by corners of a mesh: through three of them, or through two, parallel to an axis.
 struct CornerPlane {
     std::array<const LatticePoint*, 3> corners{};
-    int axis = -1;  ///< -1: through all three
+    int axis = -1;                ///< -1: through all three
+    bool is_whole = true;         ///< whether all coordinates of the corners are known to be whole
+    const Plane* made = nullptr;  ///< this plane, in place of corners
 };
 /// The same for the common point of such planes, which need not be made; nothing where doubles do
-/// not decide. \pre the corners are whole
+/// not decide.
 [[nodiscard]] std::optional<std::array<double, 3>> nearest_doubles(
     const Approximation& approximation, const std::array<CornerPlane, 3>& planes);
 

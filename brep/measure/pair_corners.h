@@ -27,7 +27,7 @@
 #include <vector>
 
 #include <trisect/brep/exact_rational.h>
-#include <trisect/brep/measure/double_pair.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/point.h>
 
 namespace trisect::detail {

@@ -317,13 +317,23 @@ Workbench::Facing Workbench::facing(PlaneId support) const {
 std::optional<CornerPlane> Workbench::by_corners(PlaneId id) const {
     const PlaneName& n = name(id);
     const Source* const source = n.source();
-    if (source == nullptr || source->is_half_space() || !source->is_whole()) return std::nullopt;
+    if (source == nullptr) return std::nullopt;
+    CornerPlane out;
+    if (source->is_half_space()) {
+        out.made = &plane_at(id);
+        return out;
+    }
     const auto corner = [&](std::uint32_t i) {
         return &source->corner(n.facet, static_cast<int>(i % 3));
     };
-    if (!n.is_edge()) return CornerPlane{{corner(0), corner(1), corner(2)}, -1};
-    const auto axis = static_cast<int>(triangle_normal(*source, n.facet).longest_axis());
-    return CornerPlane{{corner(n.kind), corner(n.kind + 1), nullptr}, axis};
+    out.is_whole = source->is_whole();
+    if (!n.is_edge()) {
+        out.corners = {corner(0), corner(1), corner(2)};
+    } else {
+        out.corners = {corner(n.kind), corner(n.kind + 1), nullptr};
+        out.axis = static_cast<int>(triangle_normal(*source, n.facet).longest_axis());
+    }
+    return out;
 }
 
 // Of planes that are not there yet: these take longer to make, and memory.

@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-#include <trisect/brep/measure/double_pair.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/lattice.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/point.h>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <thread>
 #include <vector>
 
@@ -199,6 +200,97 @@ TEST(Laws, PlanesByTheirCornersRoundPointsAsMadeOnesDo) {
         EXPECT_EQ(*nearest, nearest_doubles(a, planes[0], planes[1], planes[2]));
     }
     EXPECT_GT(met, 15000);
+    EXPECT_GT(known, met / 2);
+}
+
+// A corner with bits behind the point, as many in each coordinate as it likes.
+LatticePoint fine_point(oracle::Source& random, int bits) {
+    std::array<double, 3> c{};
+    for (double& v : c) {
+        const auto down = static_cast<int>(random.below(74));
+        const LatticePoint p = random.point(bits);
+        v = std::ldexp(p[0].to_double(), -down);
+    }
+    return {trisect::Coordinate(c[0]), trisect::Coordinate(c[1]), trisect::Coordinate(c[2])};
+}
+
+struct FinePlane {
+    std::array<LatticePoint, 3> corners;
+    Plane plane;
+    trisect::CornerPlane by_corners;
+};
+
+// Through corners, along an axis, or made; `axis`: that of sides of prisms, which is one of its
+// edges. False where corners are on one line.
+bool make_fine_plane(oracle::Source& random, int bits, FinePlane& out) {
+    auto& c = out.corners;
+    for (LatticePoint& p : c) p = fine_point(random, bits);
+    const auto axis = static_cast<int>(random.below(3));
+    if (random.below(4) == 0) {  // the side of a prism
+        std::array<trisect::Coordinate, 3> beside{c[0][0], c[0][1], c[0][2]};
+        beside[static_cast<std::size_t>(axis)] = c[2][axis];
+        c[2] = {beside[0], beside[1], beside[2]};
+    }
+    if (are_collinear(c[0], c[1], c[2])) return false;
+    out.plane = Plane::through(c[0], c[1], c[2]);
+    out.by_corners = {{&c[0], &c[1], &c[2]}, -1, false, nullptr};
+    if (random.below(4) == 0) out.by_corners.made = &out.plane;
+    if (random.below(3) != 0) return true;
+    if (c[0][(axis + 1) % 3] == c[1][(axis + 1) % 3] &&
+        c[0][(axis + 2) % 3] == c[1][(axis + 2) % 3])
+        return false;
+    out.by_corners.axis = axis;
+    out.plane = Plane::along_axis(c[0], c[1], axis);
+    return true;
+}
+
+TEST(Laws, PlanesByCornersWithFractionsRoundPointsAsMadeOnesDo) {
+    oracle::Source random(32);
+    const std::array<int, 5> sizes{3, 12, 30, 45, 53};
+    int met = 0;
+    int known = 0;
+    for (int round = 0; round < 20000; ++round) {
+        const int bits = sizes[random.below(sizes.size())];
+        std::array<FinePlane, 3> planes;
+        bool flat = false;
+        for (FinePlane& p : planes) flat = flat || !make_fine_plane(random, bits, p);
+        if (flat || !meet_in_a_point(planes[0].plane, planes[1].plane, planes[2].plane)) continue;
+        const Approximation a = approximate(planes[0].plane, planes[1].plane, planes[2].plane);
+        const auto nearest =
+            nearest_doubles(a, {planes[0].by_corners, planes[1].by_corners, planes[2].by_corners});
+        ++met;
+        if (!nearest) continue;
+        ++known;
+        EXPECT_EQ(*nearest,
+                  nearest_doubles(*intersect(planes[0].plane, planes[1].plane, planes[2].plane)));
+    }
+    EXPECT_GT(met, 10000);
+    EXPECT_GT(known, met / 2);
+}
+
+// Half-spaces across an axis: the coordinate along it is known though it may be 0.
+TEST(Laws, EdgesOfFineCornersPierceMadePlanesAcrossAxes) {
+    oracle::Source random(33);
+    int known = 0;
+    int met = 0;
+    for (int round = 0; round < 3000; ++round) {
+        std::array<FinePlane, 2> facets;
+        if (!make_fine_plane(random, 50, facets[0]) || !make_fine_plane(random, 50, facets[1]))
+            continue;
+        const auto axis = static_cast<int>(random.below(3));
+        const Plane across =
+            Plane::axis_aligned(axis, 1, static_cast<std::int64_t>(random.below(3)) - 1);
+        if (!meet_in_a_point(facets[0].plane, facets[1].plane, across)) continue;
+        trisect::CornerPlane made;
+        made.made = &across;
+        const Approximation a = approximate(facets[0].plane, facets[1].plane, across);
+        const auto nearest = nearest_doubles(a, {facets[0].by_corners, facets[1].by_corners, made});
+        ++met;
+        if (!nearest) continue;
+        ++known;
+        EXPECT_EQ(*nearest, nearest_doubles(*intersect(facets[0].plane, facets[1].plane, across)));
+    }
+    EXPECT_GT(met, 1000);
     EXPECT_GT(known, met / 2);
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <trisect/brep/measure/double_pair.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/brep/primitives/point_2d.h>
 #include <trisect/bsp/modelling/sections/mesh_section.h>
 #include <trisect/kernel/number/gmp.h>

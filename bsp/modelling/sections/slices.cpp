@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <trisect/brep/measure/double_pair.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/bsp/modelling/sections/arranged_slice.h>
 #include <trisect/bsp/modelling/sections/layer_walk.h>
 #include <trisect/bsp/modelling/sections/mesh_section.h>
