@@ -22,6 +22,7 @@
 #include <trisect/bsp/cells/packed_box.h>
 #include <trisect/bsp/cells/trace/axis_trace.h>
 #include <trisect/bsp/cells/work_budget.h>
+#include <trisect/bsp/divide/box_lists.h>
 #include <trisect/bsp/divide/cell_task.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/stack_arena.h>
@@ -51,14 +52,9 @@ struct ListInCell {
     KnownPoint reference;
     std::span<PackedBox> contained;
     std::span<PackedBox> crossing;
+    std::size_t threads = 1;  ///< that may work on it, while others work on other parts of the leaf
 
     [[nodiscard]] std::size_t size() const { return contained.size() + crossing.size(); }
-};
-
-/// Where a list is divided: below the rounded position `first_above`.
-struct Cut {
-    std::size_t axis = 0;
-    int first_above = 0;
 };
 
 /// Memory of one thread.
@@ -66,9 +62,6 @@ struct Scratch {
     StackArena arena;
     std::vector<PackedBox> cut;  // of the list that is divided, what crosses the splitting plane
 };
-
-// Smaller lists are not worth a thread.
-constexpr std::size_t parallel_list = 32768;
 
 /// Halves one leaf.
 class Halving {
@@ -80,6 +73,7 @@ public:
           frame_(Frame::covering(source_.box().intersected(cell.lattice_box()))) {
         root_.cell = cell;
         root_.reference = {leaf.reference(), leaf.winding()};
+        root_.threads = threads == 0 ? threads_here() : threads;
     }
 
     /// A node with children; null when no splitting plane separates the polygons.
@@ -92,10 +86,13 @@ public:
 private:
     void list_facets();
     void list_all_facets();
+    [[nodiscard]] std::uint32_t threads_for(const ListInCell& list) const {
+        return list.threads > 1 ? threads_ : 1;
+    }
     [[nodiscard]] PackedBox packed_facet(std::uint32_t facet) const;
-    [[nodiscard]] std::optional<Cut> longest(const ListInCell& list, int shortest) const;
+    [[nodiscard]] std::optional<ListCut> longest(const ListInCell& list, int shortest) const;
     [[nodiscard]] std::optional<std::array<ListInCell, 2>> divided(const ListInCell& list,
-                                                                   const Cut& cut,
+                                                                   const ListCut& cut,
                                                                    Scratch& scratch) const;
     [[nodiscard]] std::optional<KnownPoint> moved(const ListInCell& list, const KnownPoint& from,
                                                   std::size_t axis, std::int64_t to) const;
@@ -169,16 +166,16 @@ void Halving::list_facets() {
 }
 
 // The middle of the longest extent; nothing when none is `shortest` positions long.
-std::optional<Cut> Halving::longest(const ListInCell& list, int shortest) const {
-    PackedBox all = box_of(list.contained.data(), list.contained.size());
+std::optional<ListCut> Halving::longest(const ListInCell& list, int shortest) const {
+    PackedBox all = box_of_list(list.contained, threads_for(list));
     all.add(box_of(list.crossing.data(), list.crossing.size()));
     all = all.intersected(PackedBox::of(frame_, list.cell.lattice_box()));
-    std::optional<Cut> cut;
+    std::optional<ListCut> cut;
     int extent = shortest - 1;
     for (std::size_t k = 0; k < 3; ++k) {
         if (all.high(k) - all.low(k) <= extent) continue;
         extent = all.high(k) - all.low(k);
-        cut = Cut{k, all.low(k) + (extent + 1) / 2};
+        cut = ListCut{k, all.low(k) + (extent + 1) / 2};
     }
     return cut;
 }
@@ -197,9 +194,10 @@ std::optional<KnownPoint> Halving::moved(const ListInCell& list, const KnownPoin
     }
     const PackedReach reach(PackedBox::of(frame_, segment));
     for (const auto& part : {list.contained, list.crossing})
-        for (const PackedBox& e : part)
-            if (reach.meets(e) && source_.facet_box(e.id).overlaps(segment))
+        for_each_meeting(part, reach, threads_for(list), [&](const PackedBox& e) {
+            if (source_.facet_box(e.id).overlaps(segment))
                 trace.add({&source_, nullptr, e.id, leaf_.polygons().flipped(), false});
+        });
     const auto change = trace.change(false);
     if (!change) return std::nullopt;
     return KnownPoint{p, from.winding + *change};
@@ -240,16 +238,12 @@ std::optional<KnownPoint> Halving::reference_beyond(const ListInCell& list, cons
     return std::nullopt;
 }
 
-// Both halves of a list; nothing when no reference point is found. Every contained entry is written
-// to the front and to the end of the room, which are advanced by the outcome of the comparisons.
-std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list, const Cut& cut,
+// Both halves of a list; nothing when no reference point is found.
+std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list,
+                                                          const ListCut& cut,
                                                           Scratch& scratch) const {
     StackArena& arena = scratch.arena;
     std::vector<PackedBox>& cut_entries = scratch.cut;
-    const auto q = static_cast<std::int16_t>(cut.first_above);
-    const auto minus_q = static_cast<std::int16_t>(-cut.first_above);
-    const auto is_below = [&](const PackedBox& e) { return e.lo[cut.axis] < q; };
-    const auto is_above = [&](const PackedBox& e) { return e.minus_hi[cut.axis] <= minus_q; };
     const int axis = static_cast<int>(cut.axis);
     const std::int64_t splitter =
         frame_.last_below(cut.axis, cut.first_above) * splitting_scale + splitting_offset;
@@ -258,35 +252,22 @@ std::optional<std::array<ListInCell, 2>> Halving::divided(const ListInCell& list
     out[0].cell = list.cell.below(axis, splitter);
     out[1].cell = list.cell.above(axis, splitter);
     for (std::size_t i = 0; i < 2; ++i) {
+        out[i].threads = std::max<std::size_t>(1, list.threads / 2);
         out[i].reference = list.reference;
         if (out[i].cell.contains(list.reference.at)) continue;
         const auto beyond = reference_beyond(list, out[i].cell, {axis, splitter}, i == 1);
         if (!beyond) return std::nullopt;
         out[i].reference = *beyond;
     }
-    cut_entries.clear();
-    auto* room = arena.take<PackedBox>(list.contained.size());
-    auto* below = room;
-    auto* above = room + list.contained.size();
-    for (const PackedBox& e : list.contained) {
-        const bool b = is_below(e);
-        const bool a = is_above(e);
-        if (b && a) [[unlikely]] {
-            cut_entries.push_back(e);
-            continue;
-        }
-        copy(e, below);
-        copy(e, above - 1);
-        below += b ? 1 : 0;
-        above -= a ? 1 : 0;
-    }
-    out[0].contained = {room, below};
-    out[1].contained = {above, room + list.contained.size()};
+    const std::span room(arena.take<PackedBox>(list.contained.size()), list.contained.size());
+    const HalfSizes sizes = divide_list(list.contained, cut, room, cut_entries, threads_for(list));
+    out[0].contained = room.first(sizes.below);
+    out[1].contained = room.last(sizes.above);
     for (std::size_t i = 0; i < 2; ++i) {
         auto* entries = arena.take<PackedBox>(cut_entries.size() + list.crossing.size());
         auto* end = std::copy(cut_entries.begin(), cut_entries.end(), entries);
         end = std::ranges::copy_if(list.crossing, end, [&](const PackedBox& e) {
-                  return i == 0 ? is_below(e) : is_above(e);
+                  return i == 0 ? cut.has_below(e) : cut.has_above(e);
               }).out;
         arena.shrink(end);
         out[i].crossing = {entries, end};
