@@ -29,6 +29,8 @@
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/ready_memory.h>
+#include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect::detail {
 
@@ -42,6 +44,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 // Fewer points are not worth a part of their own, nor fewer groups of eight facets.
 constexpr std::size_t least_points = 16384;
 constexpr std::size_t least_group_count = 4096;
+
+// Of fewer facets that pass through the triangles are in no new memory of megabytes.
+constexpr std::size_t many_whole_facets = std::size_t{1} << 16;
 
 // Nor are fewer vertices that cuts have made, or edges of facets that were cut.
 constexpr std::size_t least_made = 512;
@@ -96,8 +101,12 @@ public:
 
     PolygonMesh write(std::span<const BoundaryEdge> edges) {
         number_.assign(bench_.point_count(), no_number);
-        const PoolVector<PointId> made = number_corners(edges);
-        cut_facets(edges, made);
+        const auto number_and_cut = [&] { cut_facets(edges, number_corners(edges)); };
+        if (threads_ != 1 && parts_.stats.whole_facets >= many_whole_facets) {
+            both_at_once([&] { make_room(edges.size()); }, number_and_cut);
+        } else {
+            number_and_cut();
+        }
         resize_ready(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size());
         for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
         number_faces();
@@ -150,6 +159,16 @@ private:
     static constexpr std::uint64_t no_place = static_cast<std::uint64_t>(-1);
     static std::uint64_t place_of(std::uint32_t facet, bool flipped) {
         return 2 * std::uint64_t{facet} + (flipped ? 1 : 0);
+    }
+
+    // For the triangles: memory that is new to the process takes as long to be had and zeroed as
+    // they take to be written. Facets that are cut have about as many triangles as edges.
+    void make_room(std::size_t edges) {
+        const std::size_t facets = parts_.stats.whole_facets;
+        reserve_ready(mesh_.corners, 3 * (facets + edges));
+        resize_ready(mesh_.corners, 3 * facets);
+        reserve_ready(mesh_.face_begin, facets + edges + 1);
+        resize_ready(mesh_.face_begin, facets);
     }
 
     // The corners of the result's facets, source by source, in the order of their vertices. Returns
@@ -473,12 +492,13 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     // What was cut and what passes through have nothing to do with each other yet.
     CornerTables tables;
     const bool large = parts.stats.whole_facets >= 8 * least_group_count;
-    const auto find_corners = [&] { tables = corners_in_use(parts, large ? threads : 1); };
-    if (large && threads != 1) {
-        both_at_once(find_corners, join);
+    const auto find_corners = [&](std::uint32_t on) { tables = corners_in_use(parts, on); };
+    if (large && threads != 1 && edges.size() >= parts.stats.whole_facets / 64) {
+        // A thread that waits for the other one does not help it.
+        both_at_once([&] { find_corners(threads_here() > 2 ? threads : 1); }, join);
     } else {
         join();
-        find_corners();
+        find_corners(large ? threads : 1);
     }
     if (stats != nullptr) *stats = parts.stats;
     MeshWriter writer(solid, parts, std::move(tables), threads);
