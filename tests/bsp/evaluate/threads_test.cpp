@@ -119,6 +119,28 @@ TEST(Threads, ManyLargeMeshesDoNotDependOnTheirNumber) {
     EXPECT_GT(mesh.face_count(), 82000U);
 }
 
+// Steps of a chain have work for two threads, though no more than twenty leaves each.
+TEST(Threads, ChainsDoNotDependOnTheirNumber) {
+    const auto chain = [](std::uint32_t threads) {
+        trisect::EvaluateOptions options;
+        options.threads = threads;
+        Solid part = Solid::from_mesh(trisect::make_icosphere(1, 5));
+        for (int i = 0; i < 12; ++i) {
+            PolygonMesh tool = trisect::make_icosphere(0.2, 2);
+            for (auto& p : tool.points)
+                p = {p[0] + std::cos(0.3 * i), p[1] + std::sin(0.3 * i), p[2] + 0.03 * i};
+            part = evaluate(part - Expression(Solid::from_mesh(tool)), options);
+        }
+        return part.to_mesh(threads);
+    };
+    const PolygonMesh alone = chain(1);
+    for (const std::uint32_t threads : {2U, 3U, 8U}) {
+        const PolygonMesh mesh = chain(threads);
+        EXPECT_EQ(mesh.points, alone.points) << threads;
+        EXPECT_EQ(mesh.corners, alone.corners) << threads;
+    }
+}
+
 // Prisms of eight sides on a grid, each turned otherwise; its outer rows reach out of a plate.
 PolygonMesh pockets(int n) {
     constexpr std::uint32_t sides = 8;
