@@ -82,6 +82,36 @@ TEST(SolidsOfMeshes, AreThoseOfOneAfterTheOther) {
         }
 }
 
+// A mesh that has most faces is imported by all threads, the others beside each other.
+TEST(SolidsOfMeshes, OneThatIsLargerThanAThreadsShareIsAsItIsAlone) {
+    std::vector<PolygonMesh> meshes = some_meshes(6);
+    meshes.insert(meshes.begin() + 2, trisect::make_icosphere(1, 6));
+    meshes.push_back(trisect::make_icosphere(3, 6));
+    for (const std::uint32_t threads : {1U, 2U, 3U, 8U}) {
+        const SolidOptions options = options_of(Embedding::Check, threads);
+        const std::vector<Solid> made = trisect::solids_of_meshes(meshes, options);
+        ASSERT_EQ(made.size(), meshes.size());
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            const PolygonMesh mesh = made[i].to_mesh();
+            const PolygonMesh wanted = Solid::from_mesh(meshes[i], options).to_mesh();
+            EXPECT_EQ(mesh.points, wanted.points) << i;
+            EXPECT_EQ(mesh.corners, wanted.corners) << i;
+        }
+    }
+}
+
+// Also where a later one is looked at first.
+TEST(SolidsOfMeshes, AnEarlierFailureComesBeforeThatOfALargeMesh) {
+    PolygonMesh open = trisect::make_icosphere(1, 1);
+    open.corners.resize(open.corners.size() - 3);
+    open.face_begin.pop_back();
+    PolygonMesh wrong = trisect::make_icosphere(1, 6);
+    wrong.corners[0] = 500000;
+    const SolidOptions options = options_of(Embedding::Assume, 2);
+    EXPECT_EQ(failure_of({open, wrong}, options), failure_of({open}, options));
+    EXPECT_EQ(failure_of({wrong, open}, options), failure_of({wrong}, options));
+}
+
 TEST(SolidsOfMeshes, AreNumberedInOrder) {
     std::vector<PolygonMesh> meshes;
     for (int i = 0; i < 5000; ++i)
