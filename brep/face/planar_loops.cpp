@@ -12,6 +12,7 @@
 #include <trisect/brep/planar_loops.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -22,6 +23,7 @@
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/number/flat_corner.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/support/radix_sort.h>
 
 namespace trisect {
 
@@ -133,6 +135,17 @@ PlanarLoops::PlanarLoops(const PlaneProjection& projection, std::span<const Inde
     find_loops();
 }
 
+namespace {
+
+// Integers in the order of doubles; one for both zeros.
+std::uint64_t ordered_bits(double value) {
+    constexpr std::uint64_t sign = std::uint64_t{1} << 63U;
+    const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);
+    return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+}  // namespace
+
 // Rounding is monotone, so different rounded coordinates give the order of the exact ones, and
 // those of lattice points show when they are equal.
 void PlanarLoops::number_places() {
@@ -157,10 +170,17 @@ void PlanarLoops::number_places() {
         const std::uint32_t p = corners_[c].point;
         places.push_back({projection_.u(p), projection_.v(p), c, projection_.is_lattice(p)});
     }
-    std::sort(places.begin(), places.end(), [&](const Place& a, const Place& b) {
+    const auto comes_first = [&](const Place& a, const Place& b) {
         const auto order = compare(a, b);
         return order != 0 ? order < 0 : a.corner < b.corner;
-    });
+    };
+    detail::radix_sort(places, [](const Place& a) { return ordered_bits(a.u); });
+    for (auto run = places.begin(); run != places.end();) {
+        const auto end =
+            std::find_if(run, places.end(), [&](const Place& a) { return a.u != run->u; });
+        std::sort(run, end, comes_first);
+        run = end;
+    }
     order_.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         const std::uint32_t c = places[i].corner;

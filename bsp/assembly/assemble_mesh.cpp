@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -27,6 +28,7 @@
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/ready_memory.h>
 #include <trisect/kernel/support/task_group.h>
@@ -274,6 +276,7 @@ private:
         // By edges: few facets may have nearly all of them.
         const ParallelParts parts(edges.size(), threads_, least_cut_edges);
         std::vector<CutFacets> cut(parts.count());
+        PerThread<FacetCutter> cutters;  // each has arrays as long as there are points
         const auto facet_from = [&](std::size_t edge) {
             return static_cast<std::size_t>(std::ranges::lower_bound(begins, edge) -
                                             begins.begin());
@@ -282,7 +285,8 @@ private:
         parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
             const std::size_t first = facet_from(begin);
             const std::size_t last = facet_from(end);
-            FacetCutter cutter(parts_, vertices);
+            FacetCutter& cutter =
+                cutters.local([&] { return std::make_unique<FacetCutter>(parts_, vertices); });
             cut[part].corners.reserve(3 * (begins[last] - begins[first]));
             for (std::size_t i = first; i < last; ++i) {
                 check_stop();

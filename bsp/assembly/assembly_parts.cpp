@@ -103,6 +103,11 @@ private:
         out_.bench.reserve_points_on_edges(4 * out_.facets.size(), out_.facets.size(),
                                            crossings.pairs.size());
     }
+    // Nearly every edge has a plane and a corner of its own.
+    void reserve_names(const NamedOutlines& outlines) {
+        out_.bench.reserve_unnamed(4 * outlines.faces.size() + outlines.edges.size(),
+                                   outlines.edges.size());
+    }
     void make_parts(AssembledLeaf& leaf);
     void make_list_parts(const AssembledLeaf& leaf);
     void make_part(const PolygonRef& ref, const AssembledLeaf& leaf, std::int32_t facet);
@@ -196,7 +201,7 @@ void Gatherer::gather(const PrismOutlines& prisms) {
     mark_leaves();
     mark_outlines(*prisms.outlines);
     number_facets();
-    reserve_names();
+    reserve_names(*prisms.outlines);
     add_outlines(*prisms.outlines, out_, edges_);
 }
 

@@ -13,6 +13,20 @@ namespace trisect::detail {
 
 namespace {
 
+// Whether two corners through which the plane passes show that it is not perpendicular to the axis.
+// Most are not, and planes take longer to make than this, and memory that threads share.
+bool is_surely_slanted(const PlaneName& n, int axis) {
+    if (n.is_splitter()) return n.facet != static_cast<std::uint32_t>(axis);
+    const Source& source = *n.source();
+    if (source.is_half_space()) return false;
+    const auto at = [&](std::uint32_t i) {
+        return source.corner(n.facet, static_cast<int>(i % 3))[axis];
+    };
+    const std::uint32_t first = n.is_edge() ? n.kind : 0;
+    if (at(first) != at(first + 1)) return true;
+    return !n.is_edge() && at(first) != at(first + 2);
+}
+
 // Between lattice points, and where a plane perpendicular to the axis names b, the order is that of
 // small integers or the side of a plane: models with axis-parallel faces need little else.
 std::optional<int> compare_by_plane(const Workbench& bench, PointId a, PointId b, int axis) {
@@ -22,6 +36,7 @@ std::optional<int> compare_by_plane(const Workbench& bench, PointId a, PointId b
     }
     if (bench.is_corner(b)) return std::nullopt;
     for (const PlaneId p : bench.planes_of(b)) {
+        if (is_surely_slanted(bench.name(p), axis)) continue;
         const Plane& plane = bench.plane_at(p);
         if (plane.normal((axis + 1) % 3) != 0 || plane.normal((axis + 2) % 3) != 0) continue;
         return plane.normal(axis) > 0 ? bench.side(a, p) : -bench.side(a, p);

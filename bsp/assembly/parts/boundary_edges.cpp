@@ -15,10 +15,13 @@
 #include <atomic>
 #include <bit>
 #include <iterator>
+#include <memory>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
+#include <trisect/brep/planar_loops.h>
+#include <trisect/bsp/assembly/parts/coplanar_facets.h>
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/edge_chains.h>
 #include <trisect/bsp/assembly/parts/edge_splitter.h>
@@ -30,6 +33,7 @@
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/radix_sort.h>
 
@@ -126,10 +130,11 @@ void sort_by_facet(const BoundaryParts& parts, BoundaryEdges& edges) {
 }
 
 void arrange_loops(std::span<BoundaryEdge> edges) {
+    EdgeChains chains;
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;
         while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
-        EdgeChains::arrange(edges.subspan(i, j - i));
+        chains.arrange(edges.subspan(i, j - i));
         i = j;
     }
 }
@@ -161,6 +166,7 @@ void join_facets(const BoundaryParts& parts, BoundaryEdges& edges) {
     out.reserve(edges.size());
     EdgeSplitter splitter(parts.bench, parts.facets);
     BoundaryEdges all_cancelled;
+    EdgeChains chains;
     Cancelled* const cancelled = parts.may_have_straight_crossings ? &all_cancelled : nullptr;
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t j = i;
@@ -184,7 +190,7 @@ void join_facets(const BoundaryParts& parts, BoundaryEdges& edges) {
             if (out.size() - first > left.size())
                 out.resize(first + cancel_opposites(std::span(out).subspan(first), cancelled));
         }
-        EdgeChains::arrange(std::span(out).subspan(first));
+        chains.arrange(std::span(out).subspan(first));
     }
     edges.swap(out);
     if (have_splitters(parts, edges)) conform_splitters(parts, edges);
@@ -279,12 +285,21 @@ public:
     [[nodiscard]] bool is_gone(std::size_t edge) const { return gone_[edge] != 0; }
 
 private:
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    static constexpr std::uint32_t gone = std::uint32_t{1} << 31U;  // beside an edge in a table
     using PairOfEdges = std::pair<std::uint32_t, std::uint32_t>;
     // Edges of some ends, and what was found about them.
     struct Table {
-        PoolVector<std::uint32_t> edges;  // open addressing by their ends
+        // Open addressing by their ends. That one is gone is put down here: several threads would
+        // write to the same lines of gone_.
+        PoolVector<std::uint32_t> edges;
         PoolVector<PairOfEdges> pairs;
         PoolVector<std::uint64_t> crowded;
+        void make_room(std::size_t count) { edges.assign(std::bit_ceil(2 * count + 1), none); }
+    };
+    struct Listed {
+        std::uint64_t ends = 0;
+        std::uint32_t edge = 0;
     };
 
     // Where facets do no more than cross, nothing else has that edge.
@@ -300,65 +315,100 @@ private:
         candidates_.resize(count);
     }
 
-    // Each thread has the edges with the ends of one table.
+    // Each table has the edges with some ends.
     void find_pairs(std::uint32_t threads) {
         const std::size_t count = parts_by_thread(candidates_.size(), threads, least_edges).count();
         std::vector<Table> tables(count);
-        ParallelParts(count, count == 1 ? 1 : threads, 1)
-            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-                for (std::size_t t = begin; t < end; ++t) find_pairs(tables, t);
-            });
         if (count == 1) {
-            pairs_ = std::move(tables[0].pairs);
-            crowded_ = std::move(tables[0].crowded);
-            return;
+            Table& all = tables[0];
+            all.make_room(candidates_.size());
+            enter_all(all, candidates_.size(), [&](std::size_t i) {
+                return Listed{ends_of(edges_[candidates_[i]]), candidates_[i]};
+            });
+            pairs_ = std::move(all.pairs);
+            crowded_ = std::move(all.crowded);
+            return note_gone();
         }
+        const std::vector<PoolVector<Listed>> lists = listed_by_table(count, threads);
+        ParallelParts(count, threads, 1)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t t = begin; t < end; ++t)
+                    fill(tables[t], std::span(lists).subspan(count * t, count));
+            });
         for (const Table& t : tables) {
+            const auto before = static_cast<std::ptrdiff_t>(pairs_.size());
             pairs_.insert(pairs_.end(), t.pairs.begin(), t.pairs.end());
             crowded_.insert(crowded_.end(), t.crowded.begin(), t.crowded.end());
+            // Each table has them in this order.
+            std::ranges::inplace_merge(pairs_, pairs_.begin() + before, {}, &PairOfEdges::second);
         }
-        std::ranges::sort(pairs_, {}, &PairOfEdges::second);
+        note_gone();
+    }
+    void note_gone() {
+        for (const auto& [e, f] : pairs_) gone_[e] = gone_[f] = 1;
     }
 
-    void find_pairs(std::vector<Table>& tables, std::size_t number) {
-        Table& own = tables[number];
-        const std::size_t count = tables.size();
-        const auto hash_of = [&](std::uint32_t e) { return mix64(ends_of(edges_[e])); };
-        const auto is_own = [&](std::uint64_t hash) { return (hash >> 40) % count == number; };
-        const auto own_count =
-            count == 1 ? static_cast<std::ptrdiff_t>(candidates_.size())
-                       : std::ranges::count_if(candidates_,
-                                               [&](std::uint32_t e) { return is_own(hash_of(e)); });
-        own.edges.assign(std::bit_ceil(2 * static_cast<std::size_t>(own_count) + 1), none);
+    // For each table a list of each part of the candidates, in their order.
+    [[nodiscard]] std::vector<PoolVector<Listed>> listed_by_table(std::size_t count,
+                                                                  std::uint32_t threads) const {
+        std::vector<PoolVector<Listed>> lists(count * count);
+        ParallelParts(count, threads, 1)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t part = begin; part < end; ++part) list_part(part, count, lists);
+            });
+        return lists;
+    }
+    void list_part(std::size_t part, std::size_t count,
+                   std::vector<PoolVector<Listed>>& lists) const {
+        const std::size_t n = candidates_.size();
+        std::vector<PoolVector<Listed>> own(count);
+        for (PoolVector<Listed>& list : own) list.reserve(n / (count * count) * 9 / 8);
+        for (std::size_t i = n * part / count; i < n * (part + 1) / count; ++i) {
+            const std::uint64_t ends = ends_of(edges_[candidates_[i]]);
+            own[(mix64(ends) >> 40) % count].push_back({ends, candidates_[i]});
+        }
+        for (std::size_t t = 0; t < count; ++t) lists[count * t + part] = std::move(own[t]);
+    }
+
+    void fill(Table& own, std::span<const PoolVector<Listed>> lists) {
+        std::size_t count = 0;
+        for (const PoolVector<Listed>& list : lists) count += list.size();
+        own.make_room(count);
+        for (const PoolVector<Listed>& list : lists)
+            enter_all(own, list.size(), [&](std::size_t i) { return list[i]; });
+    }
+
+    template <class At>
+    void enter_all(Table& own, std::size_t count, const At& at) {
         const std::size_t mask = own.edges.size() - 1;
         constexpr std::size_t ahead = 8;
-        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             // Both lie anywhere in memory.
-            if (count == 1 && i + 2 * ahead < candidates_.size())
-                __builtin_prefetch(&own.edges[hash_of(candidates_[i + 2 * ahead]) & mask]);
-            if (count == 1 && i + ahead < candidates_.size()) {
-                const std::uint32_t at = own.edges[hash_of(candidates_[i + ahead]) & mask];
-                if (at != none) __builtin_prefetch(&edges_[at]);
+            if (i + 2 * ahead < count)
+                __builtin_prefetch(&own.edges[mix64(at(i + 2 * ahead).ends) & mask]);
+            if (i + ahead < count) {
+                const std::uint32_t known = own.edges[mix64(at(i + ahead).ends) & mask];
+                if (known != none) __builtin_prefetch(&edges_[known & ~gone]);
             }
-            const std::uint64_t hash = hash_of(candidates_[i]);
-            if (count == 1 || is_own(hash)) enter(own, candidates_[i], hash & mask);
+            enter(own, at(i), mix64(at(i).ends) & mask);
         }
     }
 
-    void enter(Table& own, std::uint32_t e, std::size_t slot) {
-        const std::uint64_t ends = ends_of(edges_[e]);
+    void enter(Table& own, const Listed& listed, std::size_t slot) {
+        const auto [ends, e] = listed;
         std::size_t others = 0;  // edges with the same ends that were met on the way
         for (; own.edges[slot] != none; slot = (slot + 1) & (own.edges.size() - 1)) {
-            const std::uint32_t at = own.edges[slot];
+            const std::uint32_t at = own.edges[slot] & ~gone;
+            const bool is_gone = (own.edges[slot] & gone) != 0;
             if (ends_of(edges_[at]) != ends) continue;
-            if (gone_[at] == 0 && are_pair(edges_[at], edges_[e])) break;
-            others += gone_[at] != 0 ? 2 : 1;
+            if (!is_gone && are_pair(edges_[at], edges_[e])) break;
+            others += is_gone ? 2 : 1;
         }
         if (own.edges[slot] == none) {
             own.edges[slot] = e;
         } else {
-            gone_[e] = gone_[own.edges[slot]] = 1;
             own.pairs.push_back({own.edges[slot], e});
+            own.edges[slot] |= gone;
             ++others;
         }
         // The last edge of two pairs meets another one, whichever comes first in the table.
@@ -377,6 +427,9 @@ private:
         if (!may_join(a, b, within_faces_)) return false;
         if (a.support == b.support) return a.flipped == b.flipped;
         if (are_surely_askew(normal_of(e.facet), normal_of(f.facet))) return false;
+        if (!a.source->is_half_space() && !b.source->is_half_space())
+            if (const auto alike = face_alike(a, normal_of(e.facet), b, normal_of(f.facet)))
+                return *alike;
         const Plane& p = parts_.bench.plane_at(a.support);
         const Plane& q = parts_.bench.plane_at(b.support);
         return is_same_plane(p, q) && same_orientation(p, q) == (a.flipped == b.flipped);
@@ -442,7 +495,6 @@ private:
         }
     }
 
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
     const BoundaryParts& parts_;
     bool within_faces_;
     const BoundaryEdges& edges_;
@@ -534,12 +586,13 @@ public:
           edges_(edges),
           keep_(keep) {}
 
-    /// The turns of these edges, which are all those of some facets.
-    void look_at(std::size_t first, std::size_t end) {
+    /// The turns of these edges, which are all those of some facets. `chains`: scratch memory, as
+    /// long as there are points.
+    void look_at(std::size_t first, std::size_t end, EdgeChains& chains) {
         for (std::size_t i = first; i < end;) {
             std::size_t j = i;
             while (j < end && edges_[j].facet == edges_[i].facet) ++j;
-            look_at_facet(i, j);
+            look_at_facet(i, j, chains);
             i = j;
         }
     }
@@ -572,9 +625,9 @@ private:
         std::atomic_ref(keep_[as_index(p)]).store(1, std::memory_order_relaxed);
     }
 
-    void look_at_facet(std::size_t first, std::size_t end) {
+    void look_at_facet(std::size_t first, std::size_t end, EdgeChains& chains) {
         const auto region = std::span(edges_).subspan(first, end - first);
-        if (!chains_.are_simple(region)) return look_at_any(first, end);
+        if (!chains.are_simple(region)) return look_at_any(first, end);
         const PlaneId support = parts_.facets[as_index(region[0].facet)].support;
         for_each_turn(region, [&](std::size_t in, std::size_t out) {
             const PointId p = region[out].from;
@@ -646,8 +699,34 @@ private:
         for (std::size_t i = 0; i < 2; ++i) add_passage(in[i], out[i]);
     }
 
-    [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) const {
+    // By the corners of the facets whose supports they are. Long runs have the same two.
+    [[nodiscard]] bool are_one_plane(PlaneId p, PlaneId q) {
+        if (p == q) return true;
+        if (std::exchange(last_planes_, {p, q}) != std::pair(p, q))
+            last_are_one_ = are_one_by_corners(bench_.name(p), bench_.name(q));
+        return last_are_one_;
+    }
+    [[nodiscard]] static bool are_one_by_corners(const PlaneName& p, const PlaneName& q) {
+        const auto is_of_facet = [](const PlaneName& n) {
+            return n.kind == PlaneName::Support && !n.source()->is_half_space();
+        };
+        if (!is_of_facet(p) || !is_of_facet(q)) return false;
+        const FacetPoints facet = facet_points(*p.source(), p.facet);
+        return std::ranges::all_of(facet_points(*q.source(), q.facet), [&](const Vector3& corner) {
+            return side_of_facet(facet, corner) == 0;
+        });
+    }
+
+    // Mostly doubles decide, and then no planes are made.
+    [[nodiscard]] bool runs_straight(const BoundaryEdge& in, const BoundaryEdge& out) {
         const BoundaryFacet& f = parts_.facets[as_index(in.facet)];
+        if (are_one_plane(in.line.plane, out.line.plane)) return true;
+        const int k = bench_.facing(f.support).axis;
+        const PlaneProjection::Axes axes{(k + 1) % 3, (k + 2) % 3};
+        if (PlaneProjection::filtered_orientation(bench_.approximation(in.from),
+                                                  bench_.approximation(out.from),
+                                                  bench_.approximation(out.to), axes) != 0)
+            return false;
         return turn_at_vertex(bench_, f.support, f.flipped, in.line, out.line) == 0;
     }
 
@@ -657,7 +736,8 @@ private:
     const BoundaryEdges& edges_;
     std::span<char> keep_;  // by point
     PoolVector<Passage> uncertain_;
-    EdgeChains chains_;
+    std::pair<PlaneId, PlaneId> last_planes_{-1, -1};
+    bool last_are_one_ = false;
     Ends by_from_;
     Ends by_to_;
 };
@@ -688,8 +768,9 @@ void remove_straight_vertices(const BoundaryParts& parts, bool keep_corners,
     for (const PointId p : keep) kept[as_index(p)] = 1;
     const std::size_t count = ParallelParts(edges.size(), threads, least_edges).count();
     std::vector<StraightRuns> runs(count, StraightRuns(parts, keep_corners, edges, kept));
+    PerThread<EdgeChains> chains;
     for_each_part(edges, threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
-        runs[part].look_at(begin, end);
+        runs[part].look_at(begin, end, chains.local([] { return std::make_unique<EdgeChains>(); }));
     });
     const auto has_none = [](const StraightRuns& r) { return r.uncertain().empty(); };
     if (std::ranges::all_of(runs, has_none)) return;

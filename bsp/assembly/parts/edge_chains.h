@@ -17,9 +17,9 @@ namespace trisect::detail {
 /// Holds scratch memory.
 class EdgeChains {
 public:
-    /// Reorders the edges of one region so that each is followed by the one that continues it,
-    /// where that is cheap: regions of more than `few` edges stay as they are. O(n^2).
-    static void arrange(std::span<BoundaryEdge> edges);
+    /// Reorders the edges of one region so that each is followed by the one that continues it. A
+    /// region of more than `few` edges stays as it is where it passes a vertex twice. O(n).
+    void arrange(std::span<BoundaryEdge> edges);
     static constexpr std::size_t few = 32;
 
     /// Whether the edges come loop by loop, each followed by the one that continues it, and no
@@ -27,8 +27,16 @@ public:
     [[nodiscard]] bool are_simple(std::span<const BoundaryEdge> edges);
 
 private:
+    static void arrange_few(std::span<BoundaryEdge> edges);
+    void arrange_many(std::span<BoundaryEdge> edges);
+    [[nodiscard]] bool list_leaving(std::span<const BoundaryEdge> edges);
+
     PoolVector<std::uint32_t> seen_;  // by point: the last region that passed it
     std::uint32_t region_ = 0;
+    // Of a region of many edges:
+    PoolVector<std::uint32_t> leaving_;  // by point: the edge that leaves it
+    PoolVector<std::uint8_t> is_placed_;
+    BoundaryEdges arranged_;
 };
 
 /// Calls visit(i, j) for every edge i of simple chains, with j the edge that continues it.

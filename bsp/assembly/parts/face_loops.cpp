@@ -26,7 +26,14 @@ namespace trisect::detail {
 
 // 1 when p lies on the region's side of the line of the edge, which is the left, -1 right, 0 on.
 int FaceLoops::left_of(std::size_t edge, PointId p) const {
-    const WorkEdge& line = edges_[edge].line;
+    const BoundaryEdge& e = edges_[edge];
+    // Mostly doubles decide, and then the plane of the line is not made.
+    if (const int s = PlaneProjection::filtered_orientation(bench_.approximation(e.from),
+                                                            bench_.approximation(e.to),
+                                                            bench_.approximation(p), axes());
+        s != 0)
+        return s;
+    const WorkEdge& line = e.line;
     const int s = bench_.side(p, line.plane);
     return line.above ? s : -s;
 }

@@ -26,6 +26,14 @@ bool is_simple(std::span<const PointId> loop) {
     return true;
 }
 
+// A plane that is looked at along these axes. Of the support no more is needed, which takes longer
+// to make.
+Plane plane_seen_along(PlaneProjection::Axes axes) {
+    const int across = 3 - axes.u - axes.v;
+    const Plane plane = PlaneName::splitter(across, 0).plane();
+    return axes.u == (across + 1) % 3 ? plane : plane.flipped();
+}
+
 }  // namespace
 
 void FacetCutter::cut(std::span<const BoundaryEdge> edges, CutFacets& out) {
@@ -36,9 +44,9 @@ void FacetCutter::cut(std::span<const BoundaryEdge> edges, CutFacets& out) {
     if (loops_.loop_count() == 1 && is_all_of(f, loops_.loop(0))) {
         add_all_of(f, loops_.loop(0), out.corners);
     } else if (loops_.has_holes()) {
-        cut_large(f, 0, loops_.loop_count(), out.corners);
+        cut_large(0, loops_.loop_count(), out.corners);
     } else {
-        for (std::size_t l = 0; l < loops_.loop_count(); ++l) cut_loop(f, l, out.corners);
+        for (std::size_t l = 0; l < loops_.loop_count(); ++l) cut_loop(l, out.corners);
     }
 }
 
@@ -63,10 +71,10 @@ void FacetCutter::add_all_of(const BoundaryFacet& f, std::span<const PointId> lo
     for (std::size_t k = 0; k < 3; ++k) out.push_back(loop[(i + k) % 3]);
 }
 
-void FacetCutter::cut_loop(const BoundaryFacet& f, std::size_t l, PoolVector<PointId>& out) {
+void FacetCutter::cut_loop(std::size_t l, PoolVector<PointId>& out) {
     const auto loop = loops_.loop(l);
     if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
-        cut_large(f, l, l + 1, out);
+        cut_large(l, l + 1, out);
     } else {
         cut_small(loop, out);
     }
@@ -139,8 +147,7 @@ Approximation FacetCutter::nearest(PointId p) const {
 }
 
 // Loops [first, end) as one region.
-void FacetCutter::cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
-                            PoolVector<PointId>& out) {
+void FacetCutter::cut_large(std::size_t first, std::size_t end, PoolVector<PointId>& out) {
     corners_.clear();
     outline_.clear();
     local_.resize(bench_.point_count(), not_listed);
@@ -155,8 +162,7 @@ void FacetCutter::cut_large(const BoundaryFacet& f, std::size_t first, std::size
         }
     }
     for (const PointId p : corners_.points()) local_[as_index(p)] = not_listed;
-    const Plane& support = bench_.plane_at(f.support);
-    const PlaneProjection projection(f.flipped ? support.flipped() : support, corners_);
+    const PlaneProjection projection(plane_seen_along(loops_.axes()), corners_);
     for (const IndexTriangle& t : triangulate(projection, outline_))
         for (const std::uint32_t i : t) out.push_back(corners_.point(i));
 }

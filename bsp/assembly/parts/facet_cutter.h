@@ -59,15 +59,14 @@ private:
     [[nodiscard]] bool is_all_of(const BoundaryFacet& f, std::span<const PointId> loop) const;
     void add_all_of(const BoundaryFacet& f, std::span<const PointId> loop,
                     PoolVector<PointId>& out) const;
-    void cut_loop(const BoundaryFacet& f, std::size_t l, PoolVector<PointId>& out);
+    void cut_loop(std::size_t l, PoolVector<PointId>& out);
     void cut_small(std::span<const PointId> loop, PoolVector<PointId>& out);
     void add_rounded(PointId p, PlaneProjection::Axes axes);
     [[nodiscard]] Approximation nearest(PointId p) const;
     [[nodiscard]] int exact_turn(std::span<const PointId> loop,
                                  const std::array<std::uint32_t, 3>& corners,
                                  PlaneProjection::Axes axes);
-    void cut_large(const BoundaryFacet& f, std::size_t first, std::size_t end,
-                   PoolVector<PointId>& out);
+    void cut_large(std::size_t first, std::size_t end, PoolVector<PointId>& out);
 
     const BoundaryParts& parts_;
     const Workbench& bench_;

@@ -76,9 +76,10 @@ void add_box(PolygonMesh& mesh, const Point3d& low, const Point3d& high) {
     }
 }
 
-void add_bore(PolygonMesh& mesh, double x, double y, std::uint32_t sides) {
+void add_bore(PolygonMesh& mesh, double x, double y, std::uint32_t sides, double low = -0.5,
+              double high = 1.5) {
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    for (const double z : {-0.5, 1.5})
+    for (const double z : {low, high})
         for (std::uint32_t k = 0; k < sides; ++k) {
             const double angle = 0.3 * x + 0.7 * y + 6.28 * k / sides;
             mesh.points.push_back(
@@ -127,6 +128,24 @@ TEST(ExportOnThreads, BoresOfTwoToolsThroughAPlate) {
     EXPECT_GT(expect_the_same_on_threads(both), 4096U);
     const Solid one_by_one = evaluate(evaluate(plate - first) - second);
     EXPECT_EQ(trisect::exact_volume(both.to_brep()), trisect::exact_volume(one_by_one.to_brep()));
+}
+
+// One face with many holes, whose vertices are all corners of the tool.
+TEST(ExportOnThreads, PocketsThatEndWithThePlate) {
+    PolygonMesh pockets;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) add_bore(pockets, i, j, 10, 0.5, 1);
+    const Solid plate = evaluate(solids::box(0, 0, 0, 40, 40, 1) - Solid::from_mesh(pockets));
+    EXPECT_GT(expect_the_same_on_threads(plate), 16000U);
+}
+
+// The same, but these vertices are where planes meet.
+TEST(ExportOnThreads, PocketsBeyondThePlate) {
+    PolygonMesh pockets;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) add_bore(pockets, i, j, 10, 0.5, 1.25);
+    const Solid plate = evaluate(solids::box(0, 0, 0, 40, 40, 1) - Solid::from_mesh(pockets));
+    EXPECT_GT(expect_the_same_on_threads(plate), 16000U);
 }
 
 // Bars across each other: planes with hundreds of edges each, outlined one by one.
