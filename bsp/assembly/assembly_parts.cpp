@@ -43,6 +43,7 @@
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/pool_allocator.h>
+#include <trisect/kernel/support/task_group.h>
 
 namespace trisect::detail {
 
@@ -102,11 +103,6 @@ private:
         // Each place where an edge pierces a facet is in two pairs.
         out_.bench.reserve_points_on_edges(4 * out_.facets.size(), out_.facets.size(),
                                            crossings.pairs.size());
-    }
-    // Nearly every edge has a plane and a corner of its own.
-    void reserve_names(const NamedOutlines& outlines) {
-        out_.bench.reserve_unnamed(4 * outlines.faces.size() + outlines.edges.size(),
-                                   outlines.edges.size());
     }
     void make_parts(AssembledLeaf& leaf);
     void make_list_parts(const AssembledLeaf& leaf);
@@ -198,11 +194,20 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
 
 void Gatherer::gather(const PrismOutlines& prisms) {
     list_leaves(*prisms.whole, false, Cell{});
-    mark_leaves();
-    mark_outlines(*prisms.outlines);
+    const NamedOutlines& outlines = *prisms.outlines;
+    check_stop(outlines.edges.size());
+    OutlineNames names;
+    const auto name = [&] { names = name_outlines(outlines, out_.bench); };
+    constexpr std::size_t least_edges = 4096;
+    if (threads_ == 1 || outlines.edges.size() < least_edges) {
+        mark_leaves();
+        name();
+    } else {
+        both_at_once([&] { mark_leaves(); }, name);
+    }
+    mark_outlines(outlines);
     number_facets();
-    reserve_names(*prisms.outlines);
-    add_outlines(*prisms.outlines, out_, edges_);
+    add_outlines(outlines, std::move(names), out_, edges_);
 }
 
 // False where it takes the tree of the solid.
