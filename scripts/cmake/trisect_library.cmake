@@ -17,6 +17,11 @@ function(trisect_add_library layer)
             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     )
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:trisect_options>)
+    # Libraries are compiled as parts of shared ones, in which g++, other than clang, inlines no
+    # function that another library might replace.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    endif()
     if(TRISECT_COVERAGE)
         target_compile_options(${target} PRIVATE -O0 --coverage)
         # Nothing else is compiled anew in such a build; reading these was half of the time.
