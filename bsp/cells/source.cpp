@@ -9,23 +9,23 @@
 #include <string>
 #include <utility>
 
-#include <trisect/bsp/cells/serial_scope.h>
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/number/bounded_int.h>
 #include <trisect/kernel/number/dyadic.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/serial_scope.h>
 
 namespace trisect::detail {
 
 namespace {
 
 std::atomic<std::uint64_t> last_serial{0};
-thread_local std::uint64_t serial_in_scope = 0;  // none
 
 std::uint64_t next_serial() {
-    return serial_in_scope != 0 ? std::exchange(serial_in_scope, 0) : ++last_serial;
+    const std::uint64_t in_scope = SerialScope::take();
+    return in_scope != 0 ? in_scope : ++last_serial;
 }
 
 struct Extent {
@@ -73,10 +73,6 @@ Box box_on_lattice(const Box& box, int shift) {
 }
 
 }  // namespace
-
-SerialScope::SerialScope(std::uint64_t serial) { serial_in_scope = serial; }
-
-SerialScope::~SerialScope() { serial_in_scope = 0; }
 
 std::shared_ptr<const Source> Source::share(Source* source) {
     source->serial_ = next_serial();

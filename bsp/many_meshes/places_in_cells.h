@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PlacesInCells: facets of two solids by the cells of a grid that their boxes meet.
+// PlacesInCells: facets of two solids by cells of a grid.
 #pragma once
 
 #include <array>

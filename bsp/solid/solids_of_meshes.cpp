@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include <trisect/bsp/cells/serial_scope.h>
 #include <trisect/bsp/cells/source.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/ready_memory.h>
 #include <trisect/kernel/support/thread_pool.h>
+#include <trisect/kernel/support/serial_scope.h>
 
 namespace trisect {
 

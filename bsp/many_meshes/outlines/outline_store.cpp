@@ -14,7 +14,7 @@ namespace {
 // touched costs nothing, and an array that grows lies in new memory. Operands come and go, so that
 // a store seldom has all.
 constexpr std::size_t many_facets = std::size_t{1} << 20;
-constexpr std::size_t most_reserved = std::size_t{1} << 22;
+constexpr std::size_t most_reserved = std::size_t{1} << 21;
 
 // Of corners, which have no errors.
 OutlineBox box_of(const Vector3& a, const Vector3& b, const Vector3& c) {
