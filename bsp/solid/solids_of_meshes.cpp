@@ -20,8 +20,8 @@
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/ready_memory.h>
-#include <trisect/kernel/support/thread_pool.h>
 #include <trisect/kernel/support/serial_scope.h>
+#include <trisect/kernel/support/thread_pool.h>
 
 namespace trisect {
 
