@@ -10,9 +10,11 @@
 
 #include <trisect/bsp/assembly/parts/named_edges.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/kernel/counters.h>
@@ -49,9 +51,8 @@ public:
         vertices_ = {corners[plane.kind], corners[plane.kind == 2 ? 0 : plane.kind + 1]};
     }
     [[nodiscard]] bool has(std::uint32_t vertex) const {
-        for (std::size_t i = 0; i < count_; ++i)
-            if (vertices_[i] == vertex) return true;
-        return false;
+        const auto own = std::span(vertices_).first(count_);
+        return std::ranges::find(own, vertex) != own.end();
     }
     [[nodiscard]] bool has(const NamedEdge& edge) const {
         return source_ == edge.source && has(edge.ends[0]) && has(edge.ends[1]);
