@@ -80,7 +80,7 @@ struct HalfSizes {
 
 // Every entry is written to the front and to the end of the room, which are advanced by the outcome
 // of the comparisons.
-inline HalfSizes divide_alone(std::span<const PackedBox> boxes, const ListCut& cut,
+inline HalfSizes divide_alone(std::span<const PackedBox> boxes, ListCut cut,
                               std::span<PackedBox> room, std::vector<PackedBox>& across) {
     PackedBox* below = room.data();
     PackedBox* above = room.data() + room.size();
@@ -107,7 +107,7 @@ struct Reaches {
     std::size_t both = 0;
 };
 
-inline Reaches reaches_of(std::span<const PackedBox> boxes, const ListCut& cut) {
+inline Reaches reaches_of(std::span<const PackedBox> boxes, ListCut cut) {
     std::size_t below = 0;
     std::size_t above = 0;
     for (const PackedBox& e : boxes) {
@@ -119,7 +119,7 @@ inline Reaches reaches_of(std::span<const PackedBox> boxes, const ListCut& cut) 
 }
 
 // A part must not write where the next one does: one place for each entry.
-inline void write_halves(std::span<const PackedBox> boxes, const ListCut& cut, PackedBox* below,
+inline void write_halves(std::span<const PackedBox> boxes, ListCut cut, PackedBox* below,
                          PackedBox* above, PackedBox* across) {
     for (const PackedBox& e : boxes) {
         const bool b = cut.has_below(e);
