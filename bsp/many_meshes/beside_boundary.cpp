@@ -19,7 +19,7 @@ namespace trisect::detail {
 namespace {
 
 using Side = VertexSides::Side;
-using Part = BoundarySides::Part;
+using CellPart = BoundarySides::Part;
 
 constexpr std::uint32_t no_facet = ~std::uint32_t{0};
 constexpr std::size_t least_vertices = 16384;  // for a thread
@@ -50,7 +50,7 @@ public:
         for (std::size_t i = 0; i < facets_.size(); ++i)
             facets_[i] = std::min(facets_[i], others.facets_[i]);
     }
-    [[nodiscard]] std::uint32_t of(Part part) const { return facets_[part]; }
+    [[nodiscard]] std::uint32_t of(CellPart part) const { return facets_[part]; }
 
 private:
     const ManyMeshes& meshes_;
@@ -74,7 +74,7 @@ void BesideBoundary::find_sides(const OutlinedSolid& boundary,
         for (std::size_t i = begin; i < end; ++i) found[range].add(slots[i]);
     });
     for (std::size_t i = 1; i < found.size(); ++i) found[0].add(found[i]);
-    for (Part part = BoundaryCells::outside + 1; part < sides_.part_count(); ++part) {
+    for (CellPart part = BoundaryCells::outside + 1; part < sides_.part_count(); ++part) {
         const std::uint32_t number = found[0].of(part);
         if (number == no_facet) continue;
         const std::uint32_t slot = meshes_.slot_of(number);

@@ -15,16 +15,16 @@ namespace trisect::detail {
 
 namespace {
 
-using Part = BoundaryCells::Part;
+using CellPart = BoundaryCells::Part;
 using SmallCells = std::uint64_t;
 
 constexpr double cells_a_facet = 2;
 constexpr double most_along = 512;
 constexpr double most_cells = 0x1p26;
 
-constexpr Part unknown = ~Part{0};
+constexpr CellPart unknown_part = ~CellPart{0};
 // Of a cell with small ones; the rest is its number.
-constexpr Part divided_mark = Part{1} << 31;
+constexpr CellPart divided_mark = CellPart{1} << 31;
 
 constexpr std::size_t small_bits = 2;
 constexpr std::size_t small_along = std::size_t{1} << small_bits;
@@ -86,20 +86,20 @@ SmallCells grown(SmallCells cells) {
 class BoundaryCells::Unions {
 public:
     explicit Unions(std::size_t count) : parents_(count) {
-        std::iota(parents_.begin(), parents_.end(), Part{0});
+        std::iota(parents_.begin(), parents_.end(), CellPart{0});
     }
-    [[nodiscard]] Part root(Part p) {
+    [[nodiscard]] CellPart root(CellPart p) {
         while (parents_[p] != p) p = parents_[p] = parents_[parents_[p]];
         return p;
     }
-    void join(Part a, Part b) {
+    void join(CellPart a, CellPart b) {
         a = root(a);
         b = root(b);
         if (a != b) parents_[std::max(a, b)] = std::min(a, b);
     }
 
 private:
-    PoolVector<Part> parents_;
+    PoolVector<CellPart> parents_;
 };
 
 BoundaryCells::BoundaryCells(const OutlineBox& all, std::size_t facets) : low_(all.lo) {
@@ -118,7 +118,7 @@ BoundaryCells::BoundaryCells(const OutlineBox& all, std::size_t facets) : low_(a
         counts_[k] = static_cast<std::size_t>(count) + 3;
         cells *= counts_[k];
     }
-    parts_.assign(cells, unknown);
+    parts_.assign(cells, unknown_part);
 }
 
 // Of a small cell.
@@ -161,9 +161,9 @@ bool BoundaryCells::for_each_cell(const Range& range, const Each& each) const {
 
 void BoundaryCells::occupy(const OutlineBox& facet) {
     for_each_cell(range_of(facet), [&](std::size_t cell, SmallCells small) {
-        Part& part = parts_[cell];
-        if (part == unknown) {
-            part = divided_mark | static_cast<Part>(divided_.size());
+        CellPart& part = parts_[cell];
+        if (part == unknown_part) {
+            part = divided_mark | static_cast<CellPart>(divided_.size());
             divided_.emplace_back().cell = cell;
         }
         divided_[part & ~divided_mark].occupied |= small;
@@ -171,8 +171,8 @@ void BoundaryCells::occupy(const OutlineBox& facet) {
     });
 }
 
-Part BoundaryCells::part_of(const OutlineBox& box) const {
-    Part part = occupied;
+CellPart BoundaryCells::part_of(const OutlineBox& box) const {
+    CellPart part = occupied;
     const bool is_free = for_each_cell(range_of(box), [&](std::size_t cell, SmallCells small) {
         part = parts_[cell];
         if ((part & divided_mark) == 0) return true;
@@ -190,7 +190,7 @@ Part BoundaryCells::part_of(const OutlineBox& box) const {
 void BoundaryCells::find_parts() {
     Open next;
     for (std::size_t cell = 0; cell < parts_.size(); ++cell) {
-        if (parts_[cell] != unknown) continue;
+        if (parts_[cell] != unknown_part) continue;
         next.cell = cell;
         next.at = {static_cast<std::uint16_t>(cell % counts_[0]),
                    static_cast<std::uint16_t>(cell / counts_[0] % counts_[1]),
@@ -203,10 +203,10 @@ void BoundaryCells::find_parts() {
     number_parts(unions);
 }
 
-void BoundaryCells::fill(const Open& cell, Part part) {
+void BoundaryCells::fill(const Open& cell, CellPart part) {
     const std::array<std::size_t, 3> strides{1, counts_[0], counts_[0] * counts_[1]};
     const auto visit = [&](const Open& c) {
-        if (parts_[c.cell] != unknown) return;
+        if (parts_[c.cell] != unknown_part) return;
         parts_[c.cell] = part;
         open_.push_back(c);
     };
@@ -239,7 +239,7 @@ void BoundaryCells::find_pieces(Divided& d) {
             piece = grown(piece) & left;
         }
         left &= ~piece;
-        pieces_.push_back({piece, part_count_ + static_cast<Part>(pieces_.size())});
+        pieces_.push_back({piece, part_count_ + static_cast<CellPart>(pieces_.size())});
     }
     d.end_piece = static_cast<std::uint32_t>(pieces_.size());
 }
@@ -250,7 +250,7 @@ void BoundaryCells::unite_pieces(Unions& unions) const {
     const auto pieces_of = [&](const Divided& d) {
         return std::span(pieces_).subspan(d.first_piece, d.end_piece - d.first_piece);
     };
-    const auto unite_with_cell = [&](const Divided& d, SmallCells side, Part part) {
+    const auto unite_with_cell = [&](const Divided& d, SmallCells side, CellPart part) {
         for (const Piece& p : pieces_of(d))
             if ((p.cells & side) != 0) unions.join(p.part, part);
     };
@@ -258,10 +258,10 @@ void BoundaryCells::unite_pieces(Unions& unions) const {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t at = d.cell / strides[k] % counts_[k];
             if (at > 0)
-                if (const Part below = parts_[d.cell - strides[k]]; (below & divided_mark) == 0)
+                if (const CellPart below = parts_[d.cell - strides[k]]; (below & divided_mark) == 0)
                     unite_with_cell(d, first_side[k], below);
             if (at + 1 == counts_[k]) continue;
-            const Part above = parts_[d.cell + strides[k]];
+            const CellPart above = parts_[d.cell + strides[k]];
             if ((above & divided_mark) == 0) {
                 unite_with_cell(d, last_side[k], above);
                 continue;
@@ -276,17 +276,17 @@ void BoundaryCells::unite_pieces(Unions& unions) const {
 
 // Those of whole cells come first, so that each part is named by one of them, if it has one.
 void BoundaryCells::number_parts(Unions& unions) {
-    const Part of_cells = part_count_;
-    PoolVector<Part> numbers(of_cells, occupied);
+    const CellPart of_cells = part_count_;
+    PoolVector<CellPart> numbers(of_cells, occupied);
     part_count_ = 1;
-    for (Part p = outside; p < of_cells; ++p) {
-        const Part root = unions.root(p);
+    for (CellPart p = outside; p < of_cells; ++p) {
+        const CellPart root = unions.root(p);
         numbers[p] = root == p ? part_count_++ : numbers[root];
     }
-    for (Part& p : parts_)
+    for (CellPart& p : parts_)
         if ((p & divided_mark) == 0) p = numbers[p];
     for (Piece& p : pieces_) {
-        const Part root = unions.root(p.part);
+        const CellPart root = unions.root(p.part);
         p.part = root < of_cells ? numbers[root] : occupied;
     }
 }
