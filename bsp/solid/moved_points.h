@@ -6,8 +6,8 @@
 #include <array>
 #include <optional>
 
-#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/lattice.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/number/gmp.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/pose.h>

@@ -13,16 +13,16 @@ namespace trisect::detail {
 /// their own as usual. None within another one.
 class SerialScope {
 public:
-    explicit SerialScope(std::uint64_t serial) { next_ = serial; }
+    explicit SerialScope(std::uint64_t serial) { next = serial; }
     SerialScope(const SerialScope&) = delete;
     SerialScope& operator=(const SerialScope&) = delete;
-    ~SerialScope() { next_ = 0; }
+    ~SerialScope() { next = 0; }
 
     /// That serial, once; 0 where there is none.
-    [[nodiscard]] static std::uint64_t take() { return std::exchange(next_, 0); }
+    [[nodiscard]] static std::uint64_t take() { return std::exchange(next, 0); }
 
 private:
-    inline static thread_local std::uint64_t next_ = 0;
+    inline static thread_local std::uint64_t next = 0;
 };
 
 }  // namespace trisect::detail

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <optional>
 
-#include <trisect/kernel/number/double_pair.h>
 #include <trisect/brep/primitives/point_2d.h>
 #include <trisect/bsp/modelling/sections/mesh_section.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/number/gmp.h>
 
 namespace trisect::detail {

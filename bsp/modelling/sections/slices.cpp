@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <trisect/kernel/number/double_pair.h>
 #include <trisect/bsp/modelling/sections/arranged_slice.h>
 #include <trisect/bsp/modelling/sections/layer_walk.h>
 #include <trisect/bsp/modelling/sections/mesh_section.h>
@@ -13,6 +12,7 @@
 #include <trisect/bsp/modelling/sections/section_prism.h>
 #include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
+#include <trisect/kernel/number/double_pair.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
