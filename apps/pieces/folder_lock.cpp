@@ -65,8 +65,8 @@ void FolderLock::close() noexcept {
 }
 
 void FolderLock::take(const std::string& folder, double seconds) {
-    using clock = std::chrono::steady_clock;
-    const auto end = clock::now() + std::chrono::duration<double>(seconds);
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(seconds);
     const std::string name = lock_name(folder);
     for (;; std::this_thread::sleep_for(between_looks)) {
         close();
@@ -77,7 +77,7 @@ void FolderLock::take(const std::string& folder, double seconds) {
             const int failed = ::flock(file_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
             if (!is_held_by_another(failed) && is_there(file_, name)) return;
         }
-        if (clock::now() > end) {
+        if (Clock::now() > end) {
             close();
             throw held(folder);
         }
