@@ -60,7 +60,8 @@ private:
 
 /// How evaluate() works; the set that results never depends on it.
 struct EvaluateOptions {
-    /// A cell with at most this many polygons is resolved instead of refined.
+    /// A cell with at most this many polygons is resolved instead of refined; with twice as many
+    /// where two meshes are compared without a tree.
     std::uint32_t leaf_polygons = 100;
     /// What counts as inside an operand that overlaps itself several times.
     enum class Winding : std::uint8_t { Positive, NonZero } winding = Winding::Positive;

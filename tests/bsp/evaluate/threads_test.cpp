@@ -110,8 +110,8 @@ PolygonMesh ball_at(double x, double y, double z) {
     return out;
 }
 
-// Two of three meshes have 2^17 facets near each other, which is where both sides of a plane are
-// worth a thread (bsp/many_meshes/crossed_facets.cpp).
+// Two of three meshes have more than 2^15 facets near each other: these are listed by cells of a
+// grid, which threads solve (bsp/many_meshes/crossed_facets.cpp).
 TEST(Threads, ManyLargeMeshesDoNotDependOnTheirNumber) {
     const PolygonMesh mesh = expect_the_same_on_any_number(
         {ball_at(0, 0, 0), ball_at(0.11, 0.07, 0.05), ball_at(-0.06, 0.13, -0.09)},
