@@ -22,6 +22,7 @@
 #include <trisect/kernel/number/power_of_two.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/refined_point.h>
 
 namespace trisect {
 
@@ -201,15 +202,19 @@ void add_made_plane(const Plane& plane, const NearPoint& near, std::size_t row, 
     system.set_offset(row, residual(plane, near.c, near.k, near.reach));
 }
 
+System made_planes(const Plane& p, const Plane& q, const Plane& r, const NearPoint& near) {
+    System system;
+    add_made_plane(p, near, 0, system);
+    add_made_plane(q, near, 1, system);
+    add_made_plane(r, near, 2, system);
+    return system;
+}
+
 std::optional<Vector3> filtered_nearest(const Approximation& a, const Plane& p, const Plane& q,
                                         const Plane& r) {
     const auto near = near_point(a);
     if (!near) return std::nullopt;
-    System system;
-    add_made_plane(p, *near, 0, system);
-    add_made_plane(q, *near, 1, system);
-    add_made_plane(r, *near, 2, system);
-    return nearest_by(system, *near);
+    return nearest_by(made_planes(p, q, r, *near), *near);
 }
 
 // Of at most 126 bits, within two roundings.
@@ -324,6 +329,30 @@ bool add_plane(const CornerPlane& plane, const NearPoint& near, std::size_t row,
                           : add_fine_plane(plane, near, row, system);
 }
 
+std::optional<System> corner_planes(const std::array<CornerPlane, 3>& planes,
+                                    const NearPoint& near) {
+    System system;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!add_plane(planes[i], near, i, system)) return std::nullopt;
+    return system;
+}
+
+// The integers and the step, which are exact as doubles.
+std::optional<RefinedPoint> refined_by(const System& system, const NearPoint& near) {
+    const auto step = solve(system, rough_bounds(system));
+    if (!step) return std::nullopt;
+    const double unit = power_of_two(-near.k);
+    RefinedPoint out;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const DoublePair sum =
+            detail::two_sum(static_cast<double>(near.c[i]) * unit, step->c[i] * unit);
+        out.high[i] = sum.high;
+        out.low[i] = sum.low;
+        out.error = std::max(out.error, detail::bound_slack * step->error[i] * unit);
+    }
+    return out;
+}
+
 }  // namespace
 
 namespace {
@@ -390,12 +419,26 @@ std::optional<std::array<double, 3>> nearest_doubles(const Approximation& approx
                                                      const std::array<CornerPlane, 3>& planes) {
     const auto near = near_point(approximation);
     if (!near) return std::nullopt;
-    System system;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (!add_plane(planes[i], *near, i, system)) return std::nullopt;
-    const auto nearest = nearest_by(system, *near);
+    const auto system = corner_planes(planes, *near);
+    if (!system) return std::nullopt;
+    const auto nearest = nearest_by(*system, *near);
     if (nearest) ++detail::counters_of_thread<PredicateCounters>.filtered;
     return nearest;
+}
+
+std::optional<RefinedPoint> refined_point(const Approximation& approximation, const Plane& p,
+                                          const Plane& q, const Plane& r) {
+    const auto near = near_point(approximation);
+    if (!near) return std::nullopt;
+    return refined_by(made_planes(p, q, r, *near), *near);
+}
+
+std::optional<RefinedPoint> refined_point(const Approximation& approximation,
+                                          const std::array<CornerPlane, 3>& planes) {
+    const auto near = near_point(approximation);
+    if (!near) return std::nullopt;
+    const auto system = corner_planes(planes, *near);
+    return system ? refined_by(*system, *near) : std::nullopt;
 }
 
 std::array<double, 3> nearest_doubles(const Approximation& approximation, const Plane& p,

@@ -281,9 +281,19 @@ Point Workbench::point(PointId id) const {
 std::array<double, 3> Workbench::nearest(PointId id) const {
     const PointRecord& r = points_[as_index(id)];
     if (r.is_lattice) return r.approximation.c;
-    if (const auto nearest = nearest_by_corners(r)) return *nearest;
+    if (const auto planes = unmade_planes_of(r))
+        if (const auto nearest = nearest_doubles(r.approximation, *planes)) return *nearest;
     return nearest_doubles(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
                            plane_at(r.planes[2]));
+}
+
+std::optional<RefinedPoint> Workbench::refined(PointId id) const {
+    const PointRecord& r = points_[as_index(id)];
+    if (r.is_lattice) return RefinedPoint{r.approximation.c, {}, 0};
+    if (const auto planes = unmade_planes_of(r))
+        if (const auto refined = refined_point(r.approximation, *planes)) return refined;
+    return refined_point(r.approximation, plane_at(r.planes[0]), plane_at(r.planes[1]),
+                         plane_at(r.planes[2]));
 }
 
 namespace {
@@ -337,7 +347,8 @@ std::optional<CornerPlane> Workbench::by_corners(PlaneId id) const {
 }
 
 // Of planes that are not there yet: these take longer to make, and memory.
-std::optional<std::array<double, 3>> Workbench::nearest_by_corners(const PointRecord& point) const {
+std::optional<std::array<CornerPlane, 3>> Workbench::unmade_planes_of(
+    const PointRecord& point) const {
     if (std::ranges::all_of(point.planes, [&](PlaneId p) { return is_made(p); }))
         return std::nullopt;
     std::array<CornerPlane, 3> planes;
@@ -346,7 +357,7 @@ std::optional<std::array<double, 3>> Workbench::nearest_by_corners(const PointRe
         if (!plane) return std::nullopt;
         planes[i] = *plane;
     }
-    return nearest_doubles(point.approximation, planes);
+    return planes;
 }
 
 // Whether the name of a plane says that it passes through a vertex of a source.

@@ -19,6 +19,7 @@
 #include <trisect/kernel/counters.h>
 #include <trisect/kernel/point.h>
 #include <trisect/kernel/predicates.h>
+#include <trisect/kernel/refined_point.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/few.h>
 #include <trisect/kernel/support/flat_map.h>
@@ -108,6 +109,8 @@ public:
     [[nodiscard]] Point point(PointId id) const;
     /// Correctly rounded coordinates in lattice units.
     [[nodiscard]] std::array<double, 3> nearest(PointId id) const;
+    /// To some hundred bits, where doubles suffice for that.
+    [[nodiscard]] std::optional<RefinedPoint> refined(PointId id) const;
     /// Exact equality.
     [[nodiscard]] bool same_point(PointId a, PointId b) const;
     /// Whether doubles leave it open that two points are the same.
@@ -248,7 +251,7 @@ private:
         return std::atomic_ref(planes_[as_index(id)].place).load(std::memory_order_acquire) >= 0;
     }
     [[nodiscard]] std::optional<CornerPlane> by_corners(PlaneId id) const;
-    [[nodiscard]] std::optional<std::array<double, 3>> nearest_by_corners(
+    [[nodiscard]] std::optional<std::array<CornerPlane, 3>> unmade_planes_of(
         const PointRecord& point) const;
     [[nodiscard]] std::uint64_t line_of_edge(std::uint64_t owner, std::uint32_t v, std::uint32_t w);
     [[nodiscard]] std::uint64_t line_item(PlaneId p);

@@ -5,6 +5,9 @@
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/measure/boundary_bounds.h>
+#include <trisect/bsp/measure/enclosed_area.h>
+#include <trisect/bsp/measure/enclosed_volume.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -13,11 +16,16 @@ namespace {
 
 // A boundary that may meet itself is made free of that first. Names of faces do not matter here, so
 // nothing need be cut for them.
-ExactMesh boundary_of(const Solid& solid) {
-    const bool embedded = detail::state_of(solid)->embedded;
-    const Solid resolved = embedded ? solid : evaluate(Expression(solid));
-    return detail::assemble_exact_mesh(*detail::state_of(resolved));
+Solid resolved(const Solid& solid) {
+    return detail::state_of(solid)->embedded ? solid : evaluate(Expression(solid));
 }
+
+ExactMesh boundary_of(const Solid& solid) {
+    return detail::assemble_exact_mesh(*detail::state_of(resolved(solid)));
+}
+
+// Half-spaces alone show what they bound only when they have been put together.
+bool is_surely_bounded(const Solid& solid) { return detail::state_of(solid)->far_out == 0; }
 
 ExactMesh bounded_boundary_of(const Solid& solid) {
     const int far_out = detail::state_of(solid)->far_out;
@@ -31,13 +39,31 @@ ExactMesh bounded_boundary_of(const Solid& solid) {
     return boundary;
 }
 
+// What all numbers between these round to. One below the range of doubles is none.
+std::optional<double> common_double(const ExactRational& least, const ExactRational& most) {
+    const double value = least.to_double();
+    if (value != most.to_double() || (value == 0 && least != most)) return std::nullopt;
+    return value;
+}
+
 }  // namespace
 
 ExactRational exact_volume(const Solid& solid) { return exact_volume(bounded_boundary_of(solid)); }
 
-double volume(const Solid& solid) { return volume(bounded_boundary_of(solid)); }
+double volume(const Solid& solid) {
+    if (is_surely_bounded(solid)) {
+        const auto enclosed = detail::enclosed_volume(*detail::state_of(resolved(solid)));
+        if (const auto value = common_double(enclosed.least, enclosed.most)) return *value;
+    }
+    return volume(bounded_boundary_of(solid));
+}
 
-Area area(const Solid& solid) { return area(boundary_of(solid)); }
+Area area(const Solid& solid) {
+    if (is_surely_bounded(solid))
+        if (const auto a = detail::enclosed_area(*detail::state_of(resolved(solid))))
+            if (const auto value = common_double(a->least, a->most)) return {*value, {}};
+    return area(boundary_of(solid));
+}
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const Solid& solid) {
     return exact_centroid(bounded_boundary_of(solid));
@@ -46,13 +72,15 @@ std::optional<std::array<ExactRational, 3>> exact_centroid(const Solid& solid) {
 std::optional<Point3d> centroid(const Solid& solid) { return centroid(bounded_boundary_of(solid)); }
 
 std::optional<Bounds> bounds(const Solid& solid) {
+    if (is_surely_bounded(solid))
+        return detail::boundary_bounds(*detail::state_of(resolved(solid)));
     if (solid.is_whole_space()) return std::nullopt;
     return bounds(bounded_boundary_of(solid));
 }
 
 SolidCounts counts(const Solid& solid) {
-    const ExactMesh mesh = boundary_of(solid);
-    return {mesh.points.size(), mesh.triangles.size()};
+    const PolygonMesh mesh = detail::assemble_mesh(*detail::state_of(resolved(solid)));
+    return {mesh.points.size(), mesh.face_count()};
 }
 
 }  // namespace trisect

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A facet's area is the length of its vector area, which is a sum over its edges. Facets that pass
+// through are read where they lie; the others take their edges as assembly gathers them.
+
+#include <trisect/bsp/measure/enclosed_area.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <trisect/brep/lattice_mesh.h>
+#include <trisect/brep/measure.h>
+#include <trisect/bsp/assembly/assembly_parts.h>
+#include <trisect/bsp/measure/area_sum.h>
+#include <trisect/bsp/measure/split_vertices.h>
+#include <trisect/bsp/measure/vector_area.h>
+#include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/pool_allocator.h>
+
+namespace trisect::detail {
+
+namespace {
+
+// Areas in one plane are rational multiples of each other. Half-spaces are not looked at.
+bool has_rational_area(const BoundaryFacet& facet) {
+    if (facet.source->is_half_space() || axis_across(facet) >= 0) return true;
+    LatticeMesh triangle;
+    for (int i = 0; i < 3; ++i) triangle.points.push_back(facet.source->corner(facet.facet, i));
+    triangle.triangles.push_back({0, 1, 2});
+    return area(triangle).exact.has_value();
+}
+
+// Whether the area of some facet is no rational number, so that the sum, of positive roots, is
+// none.
+bool is_irrational(const BoundaryParts& parts) {
+    bool found = false;
+    for (const FacetMarks& marks : parts.sources)
+        marks.for_each_whole([&](std::uint32_t facet, bool) {
+            if (!found) found = !has_rational_area({marks.source(), facet});
+        });
+    for (const BoundaryEdge& e : parts.edges) {
+        if (found) break;
+        found = !has_rational_area(parts.facets[as_index(e.facet)]);
+    }
+    return found;
+}
+
+class BoundaryArea {
+public:
+    BoundaryArea(const BoundaryParts& parts, const SplitUnits& units, const SplitVertices& vertices)
+        : parts_(parts), units_(units), vertices_(vertices), slack_(0x1p-48 + vertices.error()) {}
+
+    void add_whole_facets(const FacetMarks& marks) {
+        const LatticeMesh& mesh = marks.source()->mesh();
+        const bool is_held = units_.holds(marks.source()->fraction_bits());
+        std::size_t since_check = 0;
+        marks.for_each_whole([&](std::uint32_t facet, bool) {
+            if (++since_check % 65536 == 0) check_stop();
+            const auto& t = mesh.triangles[facet];
+            const LatticePoint& a = mesh.points[t[0]];
+            const LatticePoint& b = mesh.points[t[1]];
+            const LatticePoint& c = mesh.points[t[2]];
+            VectorArea area;
+            if (is_held) {
+                area.add(units_.whole(a), units_.whole(b), units_.whole(c));
+                sum_.add({area.at(0), area.at(1), area.at(2)});
+            } else {
+                area.add(units_.split(a), units_.split(b), units_.split(c), slack_);
+                sum_.add({area.at(0), area.at(1), area.at(2)}, area.error());
+            }
+        });
+    }
+
+    /// The facets of a plane across an axis may share what bounds them (axis_faces.h): their areas
+    /// are components of vectors about an axis and add up edge by edge.
+    void add_cut_facets() {
+        struct Fan {
+            PointId apex = -1;
+            int axis = -1;
+            bool is_up = true;       // along the axis
+            std::size_t number = 0;  // of its area, without an axis
+        };
+        PoolVector<Fan> fans(parts_.facets.size());
+        PoolVector<VectorArea> areas;
+        for (const BoundaryEdge& e : parts_.edges) {
+            Fan& fan = fans[as_index(e.facet)];
+            if (fan.apex < 0) {
+                const BoundaryFacet& f = parts_.facets[as_index(e.facet)];
+                fan = {e.from, axis_across(f), true, areas.size()};
+                if (fan.axis < 0) {
+                    areas.emplace_back();
+                } else {
+                    const Plane support = f.source->support(f.facet);
+                    fan.is_up = support.normal(fan.axis).is_negative() == f.flipped;
+                }
+            }
+            if (fan.axis >= 0) {
+                add_across(e, static_cast<std::size_t>(fan.axis), fan.is_up);
+            } else if (fan.apex != e.from && fan.apex != e.to) {
+                areas[fan.number].add(vertices_[fan.apex], vertices_[e.from], vertices_[e.to],
+                                      slack_);
+            }
+        }
+        for (const VectorArea& a : areas) sum_.add({a.at(0), a.at(1), a.at(2)}, a.error());
+    }
+
+    [[nodiscard]] EnclosedArea result(Lattice lattice) const {
+        const ExactRational middle = ExactRational::from_double(sum_.sum().high) +
+                                     ExactRational::from_double(sum_.sum().low) +
+                                     ExactRational(WideInt<4>(across_[0])) +
+                                     ExactRational(WideInt<4>(across_[1])).scaled(64);
+        const ExactRational error = ExactRational::from_double(1.001 * (sum_.error() + error_));
+        const int scale = 2 * (lattice.exponent - units_.shift()) - 1;
+        return {(middle - error).scaled(scale), (middle + error).scaled(scale)};
+    }
+
+private:
+    // Seen from outside the facet is to the left of the edge.
+    void add_across(const BoundaryEdge& e, std::size_t axis, bool is_up) {
+        SplitPoint from = vertices_[e.from];
+        SplitPoint to = vertices_[e.to];
+        for (SplitPoint* const p : {&from, &to}) {
+            p->whole[axis] = units_.centre()[axis];
+            p->rest[axis] = 0;
+        }
+        VectorArea area;
+        area.add({units_.centre(), {}}, from, to, slack_);
+        const Int128 part = is_up ? area.at(axis) : -area.at(axis);
+        across_[0] += static_cast<std::uint64_t>(part);
+        across_[1] += part >> 64;
+        error_ += area.error();
+    }
+
+    const BoundaryParts& parts_;
+    const SplitUnits& units_;
+    const SplitVertices& vertices_;
+    double slack_;
+    AreaSum sum_;                     // doubled areas
+    std::array<Int128, 2> across_{};  // of facets across axes: across_[0] + 2^64 across_[1]
+    double error_ = 0;                // of those
+};
+
+}  // namespace
+
+std::optional<EnclosedArea> enclosed_area(const SolidState& solid) {
+    BoundaryParts parts;
+    gather_parts(solid, parts, true);
+    if (!is_irrational(parts)) return std::nullopt;
+    const SplitUnits units = units_of(parts);
+    SplitVertices vertices(parts, units);
+    vertices.make(parts.edges);
+    BoundaryArea area(parts, units, vertices);
+    for (const FacetMarks& marks : parts.sources)
+        if (!marks.source()->is_half_space()) area.add_whole_facets(marks);
+    area.add_cut_facets();
+    return area.result(solid.lattice);
+}
+
+}  // namespace trisect::detail
