@@ -28,8 +28,12 @@
 #include <trisect/kernel/contract.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
+#include <trisect/kernel/support/ready_memory.h>
 
 namespace trisect {
+
+using detail::reserve_ready;
+using detail::resize_ready;
 
 class BrepConnector {
 public:
@@ -59,10 +63,10 @@ private:
     void lay_out_loops() {
         const std::size_t n = in_.corners_.size();
         out_.lattice_ = in_.lattice_;
-        out_.halfedges_.resize(n);
+        resize_ready(out_.halfedges_, n);
         out_.planes_ = std::move(in_.planes_);
-        out_.loops_.resize(in_.loop_begin_.size());
-        out_.faces_.resize(in_.faces_.size());
+        resize_ready(out_.loops_, in_.loop_begin_.size());
+        resize_ready(out_.faces_, in_.faces_.size());
         for (std::size_t l = 0; l < out_.loops_.size(); ++l)
             out_.loops_[l].first = in_.loop_begin_[l];
         for (std::size_t f = 0; f < out_.faces_.size(); ++f) {
@@ -82,7 +86,7 @@ private:
         begin_.assign(in_.points_.size() + 1, 0);
         for (std::uint32_t h = 0; h < n; ++h) ++begin_[std::min(start_of(h), end_of(h)) + 1];
         std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        directed_.resize(n);
+        resize_ready(directed_, n);
         std::vector<std::uint32_t> fill(begin_.begin(), begin_.end() - 1);
         for (std::uint32_t h = 0; h < n; ++h) {
             const std::uint32_t u = start_of(h);
@@ -158,7 +162,7 @@ private:
     }
 
     void number_edges() {
-        out_.edges_.reserve(out_.halfedges_.size() / 2);
+        reserve_ready(out_.edges_, out_.halfedges_.size() / 2);
         for (std::uint32_t h = 0; h < out_.halfedges_.size(); ++h) {
             const std::uint32_t t = out_.halfedges_[h].twin.index;
             if (t < h) continue;
@@ -182,19 +186,21 @@ private:
     void split_vertices() {
         std::vector<VertexId> first_copy(in_.points_.size());
         std::vector<std::pair<VertexId, VertexId>> copies;  // (first copy, further copy)
-        out_.vertices_.reserve(in_.points_.size());
-        out_.points_.reserve(in_.points_.size());
+        reserve_ready(out_.vertices_, in_.points_.size());
+        reserve_ready(out_.points_, in_.points_.size());
         for (std::uint32_t h = 0; h < out_.halfedges_.size(); ++h) {
             if (out_.halfedges_[h].origin.is_valid()) continue;
             const VertexId v(out_.vertices_.size());
             const std::uint32_t place = start_of(h);
             out_.vertices_.push_back({HalfedgeId(h)});
-            out_.points_.push_back(in_.points_[place]);
-            number_fan(HalfedgeId(h), v);
-            if (first_copy[place].is_valid())
-                copies.emplace_back(first_copy[place], v);
-            else
+            if (const VertexId first = first_copy[place]; first.is_valid()) {
+                out_.points_.push_back(Point(out_.points_[first.index]));
+                copies.emplace_back(first, v);
+            } else {
+                out_.points_.push_back(std::move(in_.points_[place]));
                 first_copy[place] = v;
+            }
+            number_fan(HalfedgeId(h), v);
         }
         std::sort(copies.begin(), copies.end());
         record_copies(copies);
@@ -263,11 +269,11 @@ private:
 };
 
 void BrepBuilder::reserve(std::size_t vertices, std::size_t faces, std::size_t corners) {
-    points_.reserve(vertices);
-    corners_.reserve(corners);
-    loop_begin_.reserve(faces);
-    faces_.reserve(faces);
-    planes_.reserve(faces);
+    reserve_ready(points_, vertices);
+    reserve_ready(corners_, corners);
+    reserve_ready(loop_begin_, faces);
+    reserve_ready(faces_, faces);
+    reserve_ready(planes_, faces);
 }
 
 std::uint32_t BrepBuilder::add_vertex(const Point& p) {

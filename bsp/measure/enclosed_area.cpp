@@ -5,6 +5,7 @@
 
 #include <trisect/bsp/measure/enclosed_area.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -24,28 +25,34 @@ namespace trisect::detail {
 
 namespace {
 
+// What is known of the area before it is summed up.
+enum class AreaKind { Irrational, OfFacetsAcrossAxes, Unknown };
+
 // Areas in one plane are rational multiples of each other. Half-spaces are not looked at.
 bool has_rational_area(const BoundaryFacet& facet) {
-    if (facet.source->is_half_space() || axis_across(facet) >= 0) return true;
+    if (facet.source->is_half_space()) return true;
     LatticeMesh triangle;
     for (int i = 0; i < 3; ++i) triangle.points.push_back(facet.source->corner(facet.facet, i));
     triangle.triangles.push_back({0, 1, 2});
     return area(triangle).exact.has_value();
 }
 
-// Whether the area of some facet is no rational number, so that the sum, of positive roots, is
-// none.
-bool is_irrational(const BoundaryParts& parts) {
-    bool found = false;
+// A sum of positive roots of which one is irrational is so, too.
+AreaKind kind_of(const BoundaryParts& parts) {
+    AreaKind kind = AreaKind::OfFacetsAcrossAxes;
+    const auto look_at = [&](const BoundaryFacet& facet) {
+        if (axis_across(facet) < 0)
+            kind = has_rational_area(facet) ? AreaKind::Unknown : AreaKind::Irrational;
+    };
     for (const FacetMarks& marks : parts.sources)
         marks.for_each_whole([&](std::uint32_t facet, bool) {
-            if (!found) found = !has_rational_area({marks.source(), facet});
+            if (kind != AreaKind::Irrational) look_at({marks.source(), facet});
         });
     for (const BoundaryEdge& e : parts.edges) {
-        if (found) break;
-        found = !has_rational_area(parts.facets[as_index(e.facet)]);
+        if (kind == AreaKind::Irrational) break;
+        look_at(parts.facets[as_index(e.facet)]);
     }
-    return found;
+    return kind;
 }
 
 class BoundaryArea {
@@ -66,11 +73,10 @@ public:
             VectorArea area;
             if (is_held) {
                 area.add(units_.whole(a), units_.whole(b), units_.whole(c));
-                sum_.add({area.at(0), area.at(1), area.at(2)});
             } else {
                 area.add(units_.split(a), units_.split(b), units_.split(c), slack_);
-                sum_.add({area.at(0), area.at(1), area.at(2)}, area.error());
             }
+            add(area);
         });
     }
 
@@ -104,7 +110,7 @@ public:
                                       slack_);
             }
         }
-        for (const VectorArea& a : areas) sum_.add({a.at(0), a.at(1), a.at(2)}, a.error());
+        for (const VectorArea& a : areas) add(a);
     }
 
     [[nodiscard]] EnclosedArea result(Lattice lattice) const {
@@ -118,6 +124,21 @@ public:
     }
 
 private:
+    // Those across axes have one component, which is exact where corners have no rests.
+    void add(const VectorArea& area) {
+        std::array<Int128, 3> at{area.at(0), area.at(1), area.at(2)};
+        const auto zeros = std::ranges::count(at, Int128{0});
+        if (zeros < 2 || area.error() != 0) {
+            sum_.add(at, area.error());
+            return;
+        }
+        for (const Int128 a : at) add_across(a < 0 ? -a : a);
+    }
+    void add_across(Int128 part) {
+        across_[0] += static_cast<std::uint64_t>(part);
+        across_[1] += part >> 64;
+    }
+
     // Seen from outside the facet is to the left of the edge.
     void add_across(const BoundaryEdge& e, std::size_t axis, bool is_up) {
         SplitPoint from = vertices_[e.from];
@@ -128,9 +149,7 @@ private:
         }
         VectorArea area;
         area.add({units_.centre(), {}}, from, to, slack_);
-        const Int128 part = is_up ? area.at(axis) : -area.at(axis);
-        across_[0] += static_cast<std::uint64_t>(part);
-        across_[1] += part >> 64;
+        add_across(is_up ? area.at(axis) : -area.at(axis));
         error_ += area.error();
     }
 
@@ -148,7 +167,8 @@ private:
 std::optional<EnclosedArea> enclosed_area(const SolidState& solid) {
     BoundaryParts parts;
     gather_parts(solid, parts, true);
-    if (!is_irrational(parts)) return std::nullopt;
+    const AreaKind kind = kind_of(parts);
+    if (kind == AreaKind::Unknown) return std::nullopt;
     const SplitUnits units = units_of(parts);
     SplitVertices vertices(parts, units);
     vertices.make(parts.edges);
@@ -156,7 +176,9 @@ std::optional<EnclosedArea> enclosed_area(const SolidState& solid) {
     for (const FacetMarks& marks : parts.sources)
         if (!marks.source()->is_half_space()) area.add_whole_facets(marks);
     area.add_cut_facets();
-    return area.result(solid.lattice);
+    const EnclosedArea result = area.result(solid.lattice);
+    if (kind != AreaKind::Irrational && result.least != result.most) return std::nullopt;
+    return result;
 }
 
 }  // namespace trisect::detail

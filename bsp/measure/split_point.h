@@ -22,6 +22,8 @@ using SplitWhole = std::array<std::int64_t, 3>;
 struct SplitPoint {
     SplitWhole whole{};
     std::array<double, 3> rest{};  ///< less than 1 in magnitude
+
+    [[nodiscard]] bool is_whole() const { return rest[0] == 0 && rest[1] == 0 && rest[2] == 0; }
 };
 
 /// The units of a box about the origin.

@@ -30,6 +30,7 @@ public:
     /// `slack` as in VolumeSum: 2^-48 and what coordinates are off by.
     void add(const SplitPoint& o, const SplitPoint& p, const SplitPoint& q, double slack) {
         add(o.whole, p.whole, q.whole);
+        if (o.is_whole() && p.is_whole() && q.is_whole()) return;
         double size = 8;
         std::array<double, 3> u{};
         std::array<double, 3> v{};
@@ -55,7 +56,7 @@ public:
         return static_cast<Int128>(whole_[i] + static_cast<Uint128>(static_cast<Int128>(rest_[i])));
     }
     /// What a component is off by at most.
-    [[nodiscard]] double error() const { return error_ + 1; }
+    [[nodiscard]] double error() const { return error_ == 0 ? 0 : error_ + 1; }
 
 private:
     std::array<Uint128, 3> whole_{};

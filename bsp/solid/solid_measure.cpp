@@ -48,7 +48,13 @@ std::optional<double> common_double(const ExactRational& least, const ExactRatio
 
 }  // namespace
 
-ExactRational exact_volume(const Solid& solid) { return exact_volume(bounded_boundary_of(solid)); }
+ExactRational exact_volume(const Solid& solid) {
+    if (is_surely_bounded(solid)) {
+        const auto enclosed = detail::enclosed_volume(*detail::state_of(resolved(solid)));
+        if (enclosed.least == enclosed.most) return enclosed.least;
+    }
+    return exact_volume(bounded_boundary_of(solid));
+}
 
 double volume(const Solid& solid) {
     if (is_surely_bounded(solid)) {
@@ -59,9 +65,12 @@ double volume(const Solid& solid) {
 }
 
 Area area(const Solid& solid) {
-    if (is_surely_bounded(solid))
-        if (const auto a = detail::enclosed_area(*detail::state_of(resolved(solid))))
+    if (is_surely_bounded(solid)) {
+        if (const auto a = detail::enclosed_area(*detail::state_of(resolved(solid)))) {
+            if (a->least == a->most) return {a->least.to_double(), a->least};
             if (const auto value = common_double(a->least, a->most)) return {*value, {}};
+        }
+    }
     return area(boundary_of(solid));
 }
 
