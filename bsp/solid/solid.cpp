@@ -23,6 +23,8 @@
 #include <trisect/bsp/solid/inside_out.h>
 #include <trisect/bsp/solid/uncut_root.h>
 #include <trisect/bsp/solid_of_findings.h>
+#include <trisect/bsp/two_meshes/two_meshes.h>
+#include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/plane_on_lattice.h>
 
 namespace trisect {
@@ -113,6 +115,32 @@ std::optional<Brep> brep_with_proved_names(const SolidState& s, const AssembleOp
     Brep brep = detail::assemble_brep(s, options);
     if (!detail::names_are_proved(brep, *prisms->outlines)) return std::nullopt;
     return brep;
+}
+
+// However far larger one of them is: prisms are compared once.
+bool are_two(const detail::Residual::Ref& formula, const detail::SolidStates& solids,
+             const detail::EvaluateSettings& settings) {
+    if (solids.size() != 2 || settings.budget != nullptr || !detail::crossings_of(*formula, solids))
+        return false;
+    const detail::TwoMeshes two(solids);
+    return two.nodes[0]->refinement() == nullptr && two.nodes[1]->refinement() == nullptr &&
+           two.have_outer_references();
+}
+
+// Prisms whose outlines have no names, pair by pair: a tree would cut all that they have in common.
+// Null where that does not serve, and where they have a tree already.
+std::shared_ptr<const SolidState> pair_by_pair(const SolidState& solid) {
+    const auto* const prisms = std::get_if<detail::PrismOutlines>(&solid.form);
+    if (prisms == nullptr || prisms->tree->formula() == nullptr || prisms->tree->is_cut())
+        return nullptr;
+    detail::EvaluateStats ignored;
+    for (const detail::FormulaRule& rule :
+         {detail::FormulaRule{&detail::may_be_many_meshes, &detail::evaluate_many_without_tree},
+          detail::FormulaRule{&are_two, &detail::evaluate_without_tree}})
+        if (auto state = detail::evaluate_by(rule, prisms->tree->formula(), prisms->tree->solids(),
+                                             prisms->tree->settings(), ignored))
+            return state;
+    return nullptr;
 }
 
 EmbeddingFindings findings_of(const LatticeMesh& mesh, Embedding embedding) {
@@ -243,7 +271,9 @@ Brep Solid::to_brep(const AssembleOptions& options) const {
     const detail::SolidState& own = *state();
     if (has_all_of_brep(own, options)) return detail::assemble_brep(own, options);
     if (auto brep = brep_with_proved_names(own, options)) return *std::move(brep);
-    return detail::assemble_brep(*detail::cut_state(*this), options);
+    // Where facets of several operands coincide, smaller faces have the names that a tree gives.
+    const auto named = options.maximal_faces ? pair_by_pair(own) : nullptr;
+    return detail::assemble_brep(named != nullptr ? *named : *detail::cut_state(*this), options);
 }
 
 namespace {
@@ -251,18 +281,6 @@ namespace {
 void require_bounded(const Solid& solid) {
     if (is_unbounded(solid))
         throw UnsupportedError("the set is unbounded: its mesh would be read as another set");
-}
-
-// Prisms whose outlines have no names, pair by pair: a tree would cut all that they have in common.
-// Null where that does not serve, and where they have a tree already.
-std::shared_ptr<const SolidState> pair_by_pair(const SolidState& solid) {
-    const auto* const prisms = std::get_if<detail::PrismOutlines>(&solid.form);
-    if (prisms == nullptr || prisms->tree->formula() == nullptr || prisms->tree->is_cut())
-        return nullptr;
-    detail::EvaluateStats ignored;
-    return detail::evaluate_by({&detail::may_be_many_meshes, &detail::evaluate_many_without_tree},
-                               prisms->tree->formula(), prisms->tree->solids(),
-                               prisms->tree->settings(), ignored);
 }
 
 // With the names of maximal faces.

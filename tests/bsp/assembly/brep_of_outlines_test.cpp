@@ -37,7 +37,11 @@ using trisect::Solid;
 // A face by its name and the corners of its loops; loops begin anywhere.
 using FaceKey = std::tuple<std::uint32_t, std::uint32_t, std::multiset<std::multiset<Point3d>>>;
 
-std::multiset<FaceKey> faces_of(const Brep& brep) {
+// Where caps of several operands coincide, which of them names a face depends on the way that it
+// was found (docs/booleans.md).
+enum class Caps { Named, Unnamed };
+
+std::multiset<FaceKey> faces_of(const Brep& brep, Caps caps) {
     std::multiset<FaceKey> faces;
     for (const auto face : brep.faces()) {
         std::multiset<std::multiset<Point3d>> loops;
@@ -47,21 +51,28 @@ std::multiset<FaceKey> faces_of(const Brep& brep) {
                 corners.insert(brep.point(brep.origin(h)).nearest());
             loops.insert(std::move(corners));
         }
-        faces.emplace(brep.source(face).operand, brep.source(face).face, std::move(loops));
+        const auto& corners = *loops.begin();
+        const bool is_cap = std::ranges::all_of(
+            corners, [&](const Point3d& p) { return p[2] == (*corners.begin())[2]; });
+        const trisect::FaceSource name =
+            is_cap && caps == Caps::Unnamed ? trisect::FaceSource{} : brep.source(face);
+        faces.emplace(name.operand, name.face, std::move(loops));
     }
     return faces;
 }
 
-void expect_what_the_tree_gives(const Solid& solid) {
+void expect_what_the_tree_gives(const Solid& solid, Caps caps = Caps::Named) {
     ASSERT_NE(trisect::detail::state_of(solid)->lazy_tree(), nullptr);
+    constexpr std::array kinds{AssembleOptions{true}, AssembleOptions{false}};
+    // Before there is a tree.
+    const std::array breps{solid.to_brep(kinds[0]), solid.to_brep(kinds[1])};
     const auto tree = trisect::detail::state_of(solid)->lazy_tree()->cut();
-    for (const bool maximal : {true, false}) {
-        const AssembleOptions options{maximal};
-        const Brep brep = solid.to_brep(options);
-        const Brep expected = trisect::detail::assemble_brep(*tree, options);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const Brep& brep = breps[i];
+        const Brep expected = trisect::detail::assemble_brep(*tree, kinds[i]);
         EXPECT_EQ(brep.vertices().size(), expected.vertices().size());
         EXPECT_EQ(brep.edges().size(), expected.edges().size());
-        EXPECT_EQ(faces_of(brep), faces_of(expected));
+        EXPECT_EQ(faces_of(brep, caps), faces_of(expected, caps));
         EXPECT_EQ(exact_volume(brep), exact_volume(expected));
     }
 }
@@ -173,8 +184,8 @@ TEST(BrepOfOutlines, BoresInAPlateOfTriangles) {
 }
 
 // Of one triangle of either side little is left, or nothing, and then the other one gives the name.
+// Names that are not proved are found by comparing the prisms.
 TEST(BrepOfOutlines, TrianglesThatLittleIsLeftOf) {
-    int proved = 0;
     int cut = 0;
     for (const double reach : {0.0, 0.25, 0.4375, 0.5, 3.0})
         for (const bool turned : {false, true}) {
@@ -187,11 +198,10 @@ TEST(BrepOfOutlines, TrianglesThatLittleIsLeftOf) {
             const Solid rest = evaluate(block_of_triangles() - prism(outline, -1, 2), outlined());
             ASSERT_NE(trisect::detail::state_of(rest)->lazy_tree(), nullptr);
             static_cast<void>(rest.to_brep());
-            (is_cut(rest) ? cut : proved) += 1;
+            cut += is_cut(rest) ? 1 : 0;
             expect_what_the_tree_gives(rest);
         }
-    EXPECT_EQ(proved, 2);
-    EXPECT_EQ(cut, 8);
+    EXPECT_EQ(cut, 0);
 }
 
 TEST(BrepOfOutlines, FlushCaps) {
@@ -217,7 +227,7 @@ TEST(BrepOfOutlines, PocketsInOrderOrNot) {
         const Solid solid =
             evaluate((parts[0] | parts[1] | parts[2]) - parts[3] - parts[4], outlined());
         if (trisect::detail::state_of(solid)->lazy_tree() != nullptr)
-            expect_what_the_tree_gives(solid);
+            expect_what_the_tree_gives(solid, Caps::Unnamed);
     }
 }
 
