@@ -155,14 +155,12 @@ std::optional<OutlineStore::Solid> BalancedTree::of_boundary_and_neighbours(
     const std::uint32_t threads = parallel_ ? 0 : 1;
     BesideBoundary beside(common(), meshes_, boundary, slots, threads);
     // What comes last takes parts as they are.
-    const Settling how{&beside.sides(), number == NestedFormula::root};
+    const Settling how{&beside.sides(), number == NestedFormula::root ? &meshes_ : nullptr};
     std::optional<Solid> neighbours = of_neighbours(slots, ClearBox(), how, stats);
     if (!neighbours) return std::nullopt;
     neighbours->open_far_out = neighbours->open_far_out != complements;
     const Solid near = beside.take(*neighbours);
-    const std::optional<Solid> out = common().of(boundary, near, stats, beside.known());
-    if (out) beside.drop(*out);
-    return out;
+    return common().of(boundary, near, stats, beside.known());
 }
 
 // Of operands in the order of space, or of their complements, each of which leaves open what is
@@ -172,6 +170,7 @@ std::optional<OutlineStore::Solid> BalancedTree::of_neighbours(Slots slots, cons
                                                                EvaluateStats& stats) const {
     if (slots.size() == 1) {
         Solid one = common().store().add_operand(meshes_, slots[0], true);
+        if (how.sides != nullptr) one.united = slots;
         if (clear.is_all() && how.sides != nullptr) settle_rest(common().store(), one, how);
         return one;
     }
@@ -189,6 +188,7 @@ std::optional<OutlineStore::Solid> BalancedTree::of_neighbours(Slots slots, cons
             return of_neighbours(second, rest, how, s);
         });
     if (!out) return std::nullopt;
+    if (how.sides != nullptr) out->united = slots;
     if (!clear.is_all()) {
         if (facets >= least_with_settled && slots.size() >= 8)
             settle(common().store(), *out, clear, how);

@@ -107,6 +107,11 @@ OutlineStore::Solid BesideBoundary::join_near(SettledParts& parts) const {
         for (std::size_t f = part->far; f < part->facets.size(); ++f) near.add(*part, f);
         part->facets.resize(part->far);
         part->boxes.resize(part->far);
+        if (part->far == 0) {
+            part->facets = {};
+            part->boxes = {};
+            part->edges = {};
+        }
     }
     return near.solid();
 }
@@ -118,6 +123,7 @@ OutlineStore::Solid BesideBoundary::take(const Solid& solid) {
     // What is outside of all parts is far out.
     for (const auto& part : parts) near.box.add(part->box);
     near.open_far_out = solid.open_far_out;
+    near.united = solid.united;
     const std::span vertices = std::span(store.vertices()).subspan(near.vertices);
     known_.resize(vertices.size());
     ParallelParts(vertices.size(), threads_, least_vertices)
@@ -126,15 +132,6 @@ OutlineStore::Solid BesideBoundary::take(const Solid& solid) {
         });
     for (auto& part : parts) store.add_settled(std::move(part));
     return near;
-}
-
-// The result may have none of the parts, where boxes do not meet.
-void BesideBoundary::drop(const Solid& result) const {
-    for (const auto& part : common_.store().settled(result)) {
-        part->facets.resize(part->open);
-        part->boxes.resize(part->open);
-        part->whole_closed = {};
-    }
 }
 
 }  // namespace trisect::detail

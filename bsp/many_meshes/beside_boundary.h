@@ -31,13 +31,10 @@ public:
                    std::span<const std::uint32_t> slots, std::uint32_t threads);
     [[nodiscard]] const BoundarySides& sides() const { return sides_; }
     /// Of what the operands leave open, behind the boundary in the store, all of which has settled
-    /// with regard to sides(): what is beside the boundary, with all else in settled parts. Also
-    /// facets that the boundary does not leave open are still there.
+    /// with regard to sides(): what is beside the boundary, with all else in settled parts.
     [[nodiscard]] Solid take(const Solid& solid);
     /// By vertex of that, the side of the boundary's solid, where cells say it.
     [[nodiscard]] std::span<const Side> known() const { return known_; }
-    /// Drops those facets, once all is intersected. `result` is the last solid.
-    void drop(const Solid& result) const;
 
 private:
     void find_sides(const OutlinedSolid& boundary, std::span<const std::uint32_t> slots);

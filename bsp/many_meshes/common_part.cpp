@@ -506,7 +506,11 @@ OutlineStore& CommonPart::store() { return steps_->store(); }
 
 std::optional<OutlineStore::Solid> CommonPart::of(const Solid& first, const Solid& second,
                                                   EvaluateStats& stats, Known known) {
-    if (first.box.meets(second.box)) return steps_->of(first, second, stats, known);
+    if (first.box.meets(second.box)) {
+        std::optional<Solid> out = steps_->of(first, second, stats, known);
+        if (out) out->united = {};
+        return out;
+    }
     // Each is far out of the other one.
     OutlineStore& store = steps_->store();
     Solid out;
@@ -519,6 +523,7 @@ std::optional<OutlineStore::Solid> CommonPart::of(const Solid& first, const Soli
         if (!second.open_far_out) out = store.none_of(out);
     }
     out.open_far_out = first.open_far_out && second.open_far_out;
+    out.united = {};
     return out;
 }
 

@@ -20,14 +20,19 @@ namespace trisect::detail {
 
 namespace {
 
-using Parts = std::vector<OutlinedSolid>;
+// What it has of a solid, or what has settled.
+struct Part {
+    OutlinedSolid solid;
+    const SettledPart* settled = nullptr;
+};
+using Parts = std::vector<Part>;
 
 // Settled ones, and what is not, with these once more.
 Parts parts_of(const OutlineStore& store) {
     Parts out;
     const OutlinedSolid solid = store.view({});
-    for (const auto& part : solid.settled) out.push_back(part->view());
-    out.push_back(solid);
+    for (const auto& part : solid.settled) out.push_back({part->view(), part.get()});
+    out.push_back({solid, nullptr});
     return out;
 }
 
@@ -35,7 +40,7 @@ Parts parts_of(const OutlineStore& store) {
 void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t threads) {
     constexpr std::uint32_t unused = ~std::uint32_t{0};
     std::size_t all = 0;
-    for (const OutlinedSolid& p : parts) all += p.vertices.size();
+    for (const Part& p : parts) all += p.solid.vertices.size();
     PoolVector<std::uint32_t> numbers(all, unused);
     for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
     reserve_touched(outlined.vertices,
@@ -51,8 +56,8 @@ void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t t
                 shared.insert(name_of(v), static_cast<std::int32_t>(next)).first);
         if (*number == next) outlined.vertices.push_back(v);
     };
-    for (const OutlinedSolid& p : parts)
-        for (const OutlineVertex& v : p.vertices) {
+    for (const Part& p : parts)
+        for (const OutlineVertex& v : p.solid.vertices) {
             if (*number != unused) take(v);
             ++number;
         }
@@ -69,6 +74,7 @@ struct CutFacet {
     std::uint32_t part = 0;
     std::uint32_t first = 0;  // of its edges
     std::uint32_t count = 0;
+    bool is_kept = false;  // as assembly takes it
 };
 
 // Groups of operands leave them in an order of their own, those of one operand mostly ascending.
@@ -84,31 +90,89 @@ void sort_by_number(PoolVector<CutFacet>& facets, std::size_t slots) {
         std::ranges::sort(facets, {}, &CutFacet::number);
 }
 
+void add_part(const Part& part, std::uint32_t number, const ManyMeshes& meshes,
+              PoolVector<CutFacet>& cut, UndividedMeshes& out) {
+    const auto add_whole = [&](std::uint32_t facet, std::uint32_t slot) {
+        out.uncrossed[slot].facets.push_back(facet - meshes.operands->operands[slot].first);
+    };
+    for (const OutlinedSolid::Facet& f : part.solid.facets)
+        if (f.whole)
+            add_whole(f.number, f.slot);
+        else
+            cut.push_back({f.number, f.slot, number, f.first, f.count, false});
+    if (part.settled == nullptr) return;
+    for (const SettledPart::Whole& w : part.settled->kept_whole) add_whole(w.number, w.slot);
+    for (const OutlinedFacets::Facet& f : part.settled->kept)
+        cut.push_back({f.number, meshes.slot_of(f.number), number, f.first, f.count, true});
+}
+
 // Whole ones go to their operands. Groups of operands leave all in an order of their own.
-PoolVector<CutFacet> sort_facets(const Parts& parts, const Crossings& operands,
+PoolVector<CutFacet> sort_facets(const Parts& parts, const ManyMeshes& meshes,
                                  UndividedMeshes& out) {
     PoolVector<CutFacet> cut;
     std::size_t count = 0;
-    for (const OutlinedSolid& p : parts)
+    for (const Part& p : parts) {
         count += static_cast<std::size_t>(
-            std::ranges::count(p.facets, false, &OutlinedSolid::Facet::whole));
+            std::ranges::count(p.solid.facets, false, &OutlinedSolid::Facet::whole));
+        if (p.settled != nullptr) count += p.settled->kept.size();
+    }
     cut.reserve(count);
-    for (std::uint32_t i = 0; i < parts.size(); ++i)
-        for (const OutlinedSolid::Facet& f : parts[i].facets)
-            if (f.whole)
-                out.uncrossed[f.slot].facets.push_back(f.number - operands.operands[f.slot].first);
-            else
-                cut.push_back({f.number, f.slot, i, f.first, f.count});
-    for (const auto& part : parts.back().settled)
-        for (const SettledPart::Whole& w : part->whole_open)
-            out.uncrossed[w.slot].facets.push_back(w.number - operands.operands[w.slot].first);
+    for (std::uint32_t i = 0; i < parts.size(); ++i) add_part(parts[i], i, meshes, cut, out);
     for (UncrossedFacets& u : out.uncrossed)
         if (!std::ranges::is_sorted(u.facets)) std::ranges::sort(u.facets);
-    sort_by_number(cut, operands.operands.size());
+    sort_by_number(cut, meshes.operands->operands.size());
     return cut;
 }
 
-// With vertices by their numbers among those of all parts.
+// Edges of facets, with vertices by their numbers among those of all parts.
+class EdgeLists {
+public:
+    EdgeLists(const Parts& parts, const ManyMeshes& meshes) : parts_(parts), meshes_(meshes) {
+        std::uint32_t vertices = 0;
+        for (const Part& p : parts) {
+            first_vertices_.push_back(vertices);
+            vertices += static_cast<std::uint32_t>(p.solid.vertices.size());
+        }
+    }
+    void write(const CutFacet& f, OutlinedFacets::Edge* out) const {
+        const std::uint32_t vertex = first_vertices_[f.part];
+        if (f.is_kept) {
+            for (OutlinedFacets::Edge e : kept(f)) {
+                e.from += vertex;
+                e.to += vertex;
+                *out++ = e;
+            }
+            return;
+        }
+        for (const OutlinedSolid::Edge& e : others(f))
+            *out++ = meshes_.edge_for_assembly(vertex + e.from, vertex + e.to, e.origin, f.number,
+                                               f.slot);
+    }
+    // Edges of a facet, and their lines, lie anywhere in memory.
+    void prefetch(const CutFacet& f) const {
+        if (f.is_kept)
+            __builtin_prefetch(kept(f).data());
+        else
+            __builtin_prefetch(others(f).data());
+    }
+    void prefetch_lines(const CutFacet& f) const {
+        if (f.is_kept) return;
+        for (const OutlinedSolid::Edge& e : others(f)) __builtin_prefetch(e.origin.line());
+    }
+
+private:
+    [[nodiscard]] std::span<const OutlinedFacets::Edge> kept(const CutFacet& f) const {
+        return std::span(parts_[f.part].settled->kept_edges).subspan(f.first, f.count);
+    }
+    [[nodiscard]] std::span<const OutlinedSolid::Edge> others(const CutFacet& f) const {
+        return parts_[f.part].solid.edges.subspan(f.first, f.count);
+    }
+
+    const Parts& parts_;
+    const ManyMeshes& meshes_;
+    std::vector<std::uint32_t> first_vertices_;
+};
+
 void add_cut_facets(OutlinedFacets& outlined, const Parts& parts, std::span<const CutFacet> cut,
                     const ManyMeshes& meshes, std::uint32_t threads) {
     outlined.facets.reserve(cut.size());
@@ -118,37 +182,15 @@ void add_cut_facets(OutlinedFacets& outlined, const Parts& parts, std::span<cons
         edge_count += f.count;
     }
     outlined.edges.resize(edge_count);
-    std::vector<std::uint32_t> first_vertices{0};
-    for (const OutlinedSolid& p : parts)
-        first_vertices.push_back(first_vertices.back() +
-                                 static_cast<std::uint32_t>(p.vertices.size()));
-    // Edges of a facet, and their lines, lie anywhere in memory.
+    const EdgeLists edges(parts, meshes);
     constexpr std::size_t ahead = 8;
-    const auto look_ahead = [&](std::size_t i) {
-        if (i + 2 * ahead < cut.size())
-            __builtin_prefetch(&parts[cut[i + 2 * ahead].part].edges[cut[i + 2 * ahead].first]);
-        if (i + ahead >= cut.size()) return;
-        const CutFacet& f = cut[i + ahead];
-        for (const OutlinedSolid::Edge& e : parts[f.part].edges.subspan(f.first, f.count))
-            __builtin_prefetch(e.origin.line());
-    };
-    const auto add = [&](const CutFacet& f, OutlinedFacets::Edge* out) {
-        const std::uint32_t vertex = first_vertices[f.part];
-        for (const OutlinedSolid::Edge& e : parts[f.part].edges.subspan(f.first, f.count)) {
-            const FacetCrossing* line = e.origin.line();
-            const std::uint32_t cutter =
-                line == nullptr ? 0 : line->facets[line->facets[0] == f.number ? 1 : 0];
-            const bool open_below =
-                line != nullptr && meshes.is_open_below(meshes.slot_of(cutter), f.slot);
-            *out++ = {vertex + e.from, vertex + e.to, cutter, e.origin.own(), open_below};
-        }
-    };
     constexpr std::size_t least_facets = 8192;
     ParallelParts(cut.size(), threads, least_facets)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                look_ahead(i);
-                add(cut[i], outlined.edges.data() + outlined.facets[i].first);
+                if (i + 2 * ahead < cut.size()) edges.prefetch(cut[i + 2 * ahead]);
+                if (i + ahead < cut.size()) edges.prefetch_lines(cut[i + ahead]);
+                edges.write(cut[i], outlined.edges.data() + outlined.facets[i].first);
             }
         });
 }
@@ -163,7 +205,7 @@ UndividedMeshes form_of(const OutlineStore& store, const ManyMeshes& meshes,
         out.uncrossed.push_back({meshes.sources[i], operands.operands[i].inside_above, {}});
     auto outlined = std::make_shared<OutlinedFacets>();
     const Parts parts = parts_of(store);
-    add_cut_facets(*outlined, parts, sort_facets(parts, operands, out), meshes, threads);
+    add_cut_facets(*outlined, parts, sort_facets(parts, meshes, out), meshes, threads);
     take_vertices(*outlined, parts, threads);
     out.outlined = std::move(outlined);
     out.crossings = std::make_shared<const Crossings>(operands);

@@ -39,6 +39,7 @@
 #include <trisect/bsp/many_meshes/formula_reach.h>
 #include <trisect/bsp/many_meshes/imported_operands.h>
 #include <trisect/bsp/many_meshes/outlines/outline_store.h>
+#include <trisect/bsp/many_meshes/outlines/settled_part.h>
 #include <trisect/bsp/many_meshes/thin_facets.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/thread_pool.h>
@@ -173,9 +174,22 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
                 common.special.push_back(f.number);
         }
     };
+    const auto look_at_kept = [&](const SettledPart& part) {
+        for (const OutlinedFacets::Facet& f : part.kept) {
+            if (is_special[f.number] != 0) continue;
+            const auto edges = std::span(part.kept_edges).subspan(f.first, f.count);
+            if (std::ranges::any_of(edges, [&](const OutlinedFacets::Edge& e) {
+                    return e.edge < 0 && is_special[e.cutter] != 0;
+                }))
+                common.special.push_back(f.number);
+        }
+    };
     const OutlinedSolid solid = common.store.view({});
     look(solid);
-    for (const auto& part : solid.settled) look(part->view());
+    for (const auto& part : solid.settled) {
+        look(part->view());
+        look_at_kept(*part);
+    }
     std::ranges::sort(common.special);
 }
 

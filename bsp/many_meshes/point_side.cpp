@@ -10,7 +10,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <span>
 
+#include <trisect/bsp/many_meshes/outlines/boundary_cells.h>
 #include <trisect/bsp/many_meshes/outlines/settled_part.h>
 #include <trisect/kernel/number/error_bounds.h>
 
@@ -18,17 +21,17 @@ namespace trisect::detail {
 
 namespace {
 
-// A whole facet that has no outline in its part.
+// A whole facet of an operand.
 class WholeOutline {
 public:
-    WholeOutline(const ManyMeshes& meshes, const SettledPart::Whole& whole) {
-        facet_ = {whole.number, whole.slot, 0, 3, true};
-        const std::uint32_t first = meshes.operands->operands[whole.slot].first;
-        const std::array<Vector3, 3> corners = meshes.corners(whole.slot, whole.number - first);
+    WholeOutline(const ManyMeshes& meshes, std::uint32_t number, std::uint32_t slot) {
+        facet_ = {number, slot, 0, 3, true};
+        const std::uint32_t first = meshes.operands->operands[slot].first;
+        const std::array<Vector3, 3> corners = meshes.corners(slot, number - first);
         for (std::uint32_t i = 0; i < 3; ++i) {
             OutlineVertex& v = vertices_[i];
             v.at = {corners[i], 0.0};
-            v.facets[0] = whole.number;
+            v.facets[0] = number;
             v.which = static_cast<std::int8_t>(i);
             box_.add(v.at);
             edges_[i] = {i, i == 2 ? 0 : i + 1, EdgeOrigin(i)};
@@ -51,17 +54,25 @@ private:
     OutlineBox box_ = OutlineBox::none();
 };
 
-// Calls pass(outline) for those that the ray may meet, until it says false.
-template <class Ray, class Pass>
-bool pass_whole(const Ray& ray, const SettledPart& part, const ManyMeshes& meshes,
-                const Pass& pass) {
-    if (!ray.may_meet(part.box)) return true;
-    for (const auto* const all : {&part.whole_open, &part.whole_closed})
-        for (const SettledPart::Whole& w : *all) {
-            const WholeOutline outline(meshes, w);
-            if (ray.may_meet(outline.box()) && !pass(outline)) return false;
+// Whether one of the operands has what the ray goes from, by passes(outline), which is nothing
+// where that is not certain. \pre each of them is bounded
+template <class Ray, class Passes>
+std::optional<bool> is_in_one(const Ray& ray, std::span<const std::uint32_t> operands,
+                              const ManyMeshes& meshes, const Passes& passes) {
+    for (const std::uint32_t slot : operands) {
+        if (!ray.may_begin_in(outline_box(meshes.sources[slot]->box()))) continue;
+        const std::uint32_t first = meshes.operands->operands[slot].first;
+        bool odd = false;
+        for (std::uint32_t f = 0; f < meshes.sources[slot]->facet_count(); ++f) {
+            const WholeOutline outline(meshes, first + f, slot);
+            if (!ray.may_meet(outline.box())) continue;
+            const std::optional<bool> met = passes(outline);
+            if (!met) return std::nullopt;
+            odd = odd != *met;
         }
-    return true;
+        if (odd) return true;
+    }
+    return false;
 }
 
 class AxisRay {
@@ -69,6 +80,10 @@ public:
     AxisRay(const Approximation& from, std::size_t axis, bool up)
         : from_(from), axis_(axis), u_((axis + 1) % 3), v_((axis + 2) % 3), up_(up) {}
 
+    [[nodiscard]] bool may_begin_in(const OutlineBox& b) const {
+        return may_meet(b) && b.lo[axis_] - margin_ <= from_.c[axis_] &&
+               from_.c[axis_] <= b.hi[axis_] + margin_;
+    }
     // Whether the ray may meet the box.
     [[nodiscard]] bool may_meet(const OutlineBox& b) const {
         const double e = margin_;
@@ -130,6 +145,10 @@ private:
 // Whether a ray goes through the boundary an odd number of times.
 std::optional<bool> passes_odd(const AxisRay& ray, const OutlinedSolid& solid,
                                CommonSegments& planes, std::size_t number) {
+    if (!solid.united.empty())
+        return is_in_one(ray, solid.united, planes.meshes(), [&](const WholeOutline& w) {
+            return ray.meets(w.view(), w.facet(), planes.plane_of(w.facet()));
+        });
     bool odd = false;
     const auto pass = [&](const OutlinedSolid& part, const auto& plane_of) {
         if (!ray.may_meet(part.box)) return true;
@@ -142,15 +161,8 @@ std::optional<bool> passes_odd(const AxisRay& ray, const OutlinedSolid& solid,
         return true;
     };
     if (!pass(solid, [&](std::uint32_t f) { return planes.plane(number, f); })) return std::nullopt;
-    const auto pass_one = [&](const WholeOutline& w) {
-        const std::optional<bool> met = ray.meets(w.view(), w.facet(), planes.plane_of(w.facet()));
-        if (met) odd = odd != *met;
-        return met.has_value();
-    };
     for (const auto& part : solid.settled)
-        if (!pass(part->view(),
-                  [&](std::uint32_t f) { return planes.plane_of(part->facets[f]); }) ||
-            !pass_whole(ray, *part, planes.meshes(), pass_one))
+        if (!pass(part->view(), [&](std::uint32_t f) { return planes.plane_of(part->facets[f]); }))
             return std::nullopt;
     return odd;
 }
@@ -169,6 +181,9 @@ public:
         const auto& c = from_.at.c;
         return b.lo[0] <= c[0] && c[0] <= b.hi[0] && b.lo[1] <= c[1] && c[1] <= b.hi[1] &&
                c[2] <= b.hi[2];
+    }
+    [[nodiscard]] bool may_begin_in(const OutlineBox& b) const {
+        return may_meet(b) && b.lo[2] <= from_.at.c[2];
     }
     [[nodiscard]] bool meets(const OutlinedSolid::Facet& facet) const {
         const int slope = exact_.slope(facet.number, 2);
@@ -207,6 +222,13 @@ private:
 
 bool is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid,
                        const ShiftedPoints& exact) {
+    if (!solid.united.empty()) {
+        const ExactRay ray(corner, solid, exact);
+        const auto odd = is_in_one(ray, solid.united, exact.meshes(), [&](const WholeOutline& w) {
+            return std::optional(ExactRay(corner, w.view(), exact).meets(w.facet()));
+        });
+        return solid.open_far_out != *odd;
+    }
     bool odd = false;
     const auto pass = [&](const OutlinedSolid& part) {
         const ExactRay ray(corner, part, exact);
@@ -215,16 +237,7 @@ bool is_open_at_corner(const OutlineVertex& corner, const OutlinedSolid& solid,
             if (ray.may_meet(part.boxes[f])) odd = odd != ray.meets(part.facets[f]);
     };
     pass(solid);
-    const auto pass_one = [&](const WholeOutline& w) {
-        const OutlinedSolid outline = w.view();
-        odd = odd != ExactRay(corner, outline, exact).meets(w.facet());
-        return true;
-    };
-    for (const auto& part : solid.settled) {
-        const OutlinedSolid view = part->view();
-        pass(view);
-        pass_whole(ExactRay(corner, view, exact), *part, exact.meshes(), pass_one);
-    }
+    for (const auto& part : solid.settled) pass(part->view());
     return solid.open_far_out != odd;
 }
 

@@ -56,6 +56,7 @@ OutlinedSolid OutlineStore::view(const Solid& solid, const Solid& next) const {
     out.box = solid.box;
     out.settled = std::span(settled_).subspan(solid.settled, next.settled - solid.settled);
     out.open_far_out = solid.open_far_out;
+    out.united = solid.united;
     return out;
 }
 
@@ -129,6 +130,7 @@ OutlineStore::Solid OutlineStore::put(SettledParts parts, const Solid& solid) {
     Solid out = empty_solid(solid.open_far_out);
     out.unused_edges = solid.unused_edges;
     out.box = solid.box;
+    out.united = solid.united;
     const auto vertex = static_cast<std::uint32_t>(out.vertices);
     const auto edge = static_cast<std::uint32_t>(out.edges);
     const std::unique_ptr<SettledPart> rest = std::move(parts.back());

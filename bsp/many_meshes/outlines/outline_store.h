@@ -30,6 +30,7 @@ public:
         std::size_t unused_edges = 0;  ///< those that no facet has
         OutlineBox box = OutlineBox::none();
         bool open_far_out = false;
+        std::span<const std::uint32_t> united;  ///< as of an OutlinedSolid
     };
     using Facet = OutlinedSolid::Facet;
     using Edge = OutlinedSolid::Edge;

@@ -24,6 +24,28 @@
 
 namespace trisect::detail {
 
+/// What an edge of a part of a facet lies in: a line with a cutter, or an edge of the facet. There
+/// are many of them, so one word has either.
+class EdgeOrigin {
+public:
+    EdgeOrigin() = default;
+    explicit EdgeOrigin(const FacetCrossing* line)
+        : bits_(reinterpret_cast<std::uintptr_t>(line)) {}
+    explicit EdgeOrigin(std::uint32_t own) : bits_(own) {}
+
+    /// Null for an edge of the facet.
+    [[nodiscard]] const FacetCrossing* line() const {
+        return bits_ < 3 ? nullptr : reinterpret_cast<const FacetCrossing*>(bits_);
+    }
+    /// From that corner of the facet to the next one; -1 for a line.
+    [[nodiscard]] std::int8_t own() const {
+        return bits_ < 3 ? static_cast<std::int8_t>(bits_) : std::int8_t{-1};
+    }
+
+private:
+    std::uintptr_t bits_ = 0;  // below 3: an edge of the facet
+};
+
 /// The operands of a union, an intersection or a difference of imported meshes, or of these of each
 /// other, shared by all steps of its evaluation.
 struct ManyMeshes {
@@ -52,33 +74,21 @@ struct ManyMeshes {
         const std::uint32_t facet = number - operands->operands[slot].first;
         return {&s.corner(facet, 0), &s.corner(facet, 1), &s.corner(facet, 2)};
     }
+    /// As assembly takes an edge of a facet.
+    [[nodiscard]] OutlinedFacets::Edge edge_for_assembly(std::uint32_t from, std::uint32_t to,
+                                                         const EdgeOrigin& origin,
+                                                         std::uint32_t number,
+                                                         std::uint32_t slot) const {
+        const FacetCrossing* const line = origin.line();
+        if (line == nullptr) return {from, to, 0, origin.own(), false};
+        const std::uint32_t cutter = line->facets[line->facets[0] == number ? 1 : 0];
+        return {from, to, cutter, -1, is_open_below(slot_of(cutter), slot)};
+    }
     [[nodiscard]] std::array<Vector3, 3> corners(std::uint32_t slot, std::uint32_t facet) const {
         const Source& s = *sources[slot];
         return {s.corner(facet, 0).doubles(), s.corner(facet, 1).doubles(),
                 s.corner(facet, 2).doubles()};
     }
-};
-
-/// What an edge of a part of a facet lies in: a line with a cutter, or an edge of the facet. There
-/// are many of them, so one word has either.
-class EdgeOrigin {
-public:
-    EdgeOrigin() = default;
-    explicit EdgeOrigin(const FacetCrossing* line)
-        : bits_(reinterpret_cast<std::uintptr_t>(line)) {}
-    explicit EdgeOrigin(std::uint32_t own) : bits_(own) {}
-
-    /// Null for an edge of the facet.
-    [[nodiscard]] const FacetCrossing* line() const {
-        return bits_ < 3 ? nullptr : reinterpret_cast<const FacetCrossing*>(bits_);
-    }
-    /// From that corner of the facet to the next one; -1 for a line.
-    [[nodiscard]] std::int8_t own() const {
-        return bits_ < 3 ? static_cast<std::int8_t>(bits_) : std::int8_t{-1};
-    }
-
-private:
-    std::uintptr_t bits_ = 0;  // below 3: an edge of the facet
 };
 
 struct OutlineBox {
@@ -165,6 +175,9 @@ struct OutlinedSolid {
     /// More of the boundary, which nothing will meet any more (settled_parts.h).
     std::span<const std::unique_ptr<SettledPart>> settled;
     bool open_far_out = false;
+    /// Of a union, or its complement: the slots of what is united. Then facets that have settled
+    /// need not be there. Else empty.
+    std::span<const std::uint32_t> united;
 
     [[nodiscard]] std::span<const Edge> edges_of(const Facet& f) const {
         return edges.subspan(f.first, f.count);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include <trisect/bsp/cells/outlined_facets.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
 #include <trisect/kernel/support/pool_allocator.h>
 
@@ -20,19 +21,20 @@ struct SettledPart {
     PoolVector<OutlineBox> boxes;
     PoolVector<OutlinedSolid::Edge> edges;
     PoolVector<OutlineVertex> vertices;
-    OutlineBox box = OutlineBox::none();  ///< of all, also of those without outlines
+    OutlineBox box = OutlineBox::none();  ///< of all, also of those that are not here any more
+
+    /// Where sides of a boundary are known: so many facets come first that are not beside it.
+    std::size_t far = 0;
 
     /// A whole facet without an outline here.
     struct Whole {
         std::uint32_t number = 0;
         std::uint32_t slot = 0;
     };
-    PoolVector<Whole> whole_open;  ///< those that stay
-    PoolVector<Whole> whole_closed;
-    /// Where sides of a boundary are known: so many facets come first that it leaves open, and so
-    /// many that are not beside it.
-    std::size_t open = 0;
-    std::size_t far = 0;
+    /// Facets that nothing will change any more, as assembly takes them, besides those above.
+    PoolVector<Whole> kept_whole;
+    PoolVector<OutlinedFacets::Facet> kept;
+    PoolVector<OutlinedFacets::Edge> kept_edges;  ///< with vertices of the part
 
     /// Good until the part changes.
     [[nodiscard]] OutlinedSolid view() const {

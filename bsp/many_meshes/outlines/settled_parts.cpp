@@ -30,24 +30,24 @@ constexpr std::size_t least_part = 8;
 // A copy of facets of a solid, with those vertices that they have.
 class PartCopy {
 public:
-    // For those facets.
+    // For those facets that will be added, and those that will be kept.
     PartCopy(const OutlineStore& store, const OutlineStore::Solid& solid,
-             std::span<const std::uint32_t> places)
+             std::span<const std::uint32_t> added, std::span<const std::uint32_t> kept)
         : solid_(store.view(solid)),
           first_vertex_(static_cast<std::uint32_t>(solid.vertices)),
           numbers_(solid_.vertices.size() - solid.vertices, none),
           part_(std::make_unique<SettledPart>()) {
         // There are many parts: what they do not use would be a good part of all memory.
-        std::size_t edges = 0;
         std::size_t vertices = 0;
-        for (const std::uint32_t f : places) {
-            edges += solid_.facets[f].count;
-            for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[f]))
-                if (std::exchange(numbers_[e.from - first_vertex_], wanted) == none) ++vertices;
-        }
-        part_->facets.reserve(places.size());
-        part_->boxes.reserve(places.size());
-        part_->edges.reserve(edges);
+        part_->facets.reserve(added.size());
+        part_->boxes.reserve(added.size());
+        part_->edges.reserve(count_edges(added, vertices));
+        PoolVector<std::uint32_t> cut;
+        for (const std::uint32_t f : kept)
+            if (!solid_.facets[f].whole) cut.push_back(f);
+        part_->kept.reserve(cut.size());
+        part_->kept_whole.reserve(kept.size() - cut.size());
+        part_->kept_edges.reserve(count_edges(cut, vertices));
         part_->vertices.reserve(vertices);
     }
     void add(std::size_t place) {
@@ -59,13 +59,22 @@ public:
         part_->boxes.push_back(solid_.boxes[place]);
         part_->box.add(solid_.boxes[place]);
     }
-    // A whole one that has no outline in the part.
-    void add_whole(std::size_t place, OutlineSide side) {
+    // As assembly takes it.
+    void keep(std::size_t place, const ManyMeshes& meshes) {
         const OutlinedSolid::Facet& f = solid_.facets[place];
-        (side == OutlineSide::Open ? part_->whole_open : part_->whole_closed)
-            .push_back({f.number, f.slot});
         part_->box.add(solid_.boxes[place]);
+        if (f.whole) {
+            part_->kept_whole.push_back({f.number, f.slot});
+            return;
+        }
+        const auto first = static_cast<std::uint32_t>(part_->kept_edges.size());
+        for (const OutlinedSolid::Edge& e : solid_.edges_of(f))
+            part_->kept_edges.push_back(
+                meshes.edge_for_assembly(number(e.from), number(e.to), e.origin, f.number, f.slot));
+        part_->kept.push_back({f.number, first, f.count});
     }
+    // One that goes.
+    void drop(std::size_t place) { part_->box.add(solid_.boxes[place]); }
     // Vertices of a facet that was added are others', too.
     void share(std::size_t place) {
         for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[place]))
@@ -82,6 +91,17 @@ public:
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     static constexpr std::uint32_t wanted = none - 1;  // it has no number yet
+    // Counts vertices that are wanted for the first time, too.
+    [[nodiscard]] std::size_t count_edges(std::span<const std::uint32_t> places,
+                                          std::size_t& vertices) {
+        std::size_t edges = 0;
+        for (const std::uint32_t f : places) {
+            edges += solid_.facets[f].count;
+            for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[f]))
+                if (std::exchange(numbers_[e.from - first_vertex_], wanted) == none) ++vertices;
+        }
+        return edges;
+    }
     [[nodiscard]] std::uint32_t number(std::uint32_t vertex) {
         std::uint32_t& number = numbers_[vertex - first_vertex_];
         if (number == wanted) {
@@ -138,26 +158,23 @@ void settle_those(OutlineStore& store, OutlineStore::Solid& solid, const Settles
                   const Settling& how) {
     const OutlinedSolid all = store.view(solid);
     const PoolVector<OutlineSide> sides = sides_of(all, settles, how);
-    const auto has_outline = [&](std::size_t f) {
-        return !how.leaves_outlines || !all.facets[f].whole || sides[f] == OutlineSide::Unknown;
-    };
-    PoolVector<std::uint32_t> outlined;
+    // Those that are not beside the boundary first.
+    PoolVector<std::uint32_t> added;
+    PoolVector<std::uint32_t> kept;
+    PoolVector<std::uint32_t>& open = how.for_assembly == nullptr ? added : kept;
     for (std::uint32_t f = 0; f < settles.size(); ++f)
-        if (settles[f] != 0 && has_outline(f)) outlined.push_back(f);
-    PartCopy part(store, solid, outlined);
-    for (const OutlineSide side : {OutlineSide::Open, OutlineSide::Closed, OutlineSide::Unknown}) {
-        for (std::size_t f = 0; f < settles.size(); ++f) {
-            if (settles[f] == 0 || sides[f] != side) continue;
-            if (!has_outline(f)) {
-                part.add_whole(f, side);
-                continue;
-            }
-            part.add(f);
-            if (how.sides != nullptr && side == OutlineSide::Unknown) part.share(f);
-        }
-        if (side == OutlineSide::Open) part.part().open = part.part().facets.size();
-        if (side == OutlineSide::Closed) part.part().far = part.part().facets.size();
-    }
+        if (settles[f] != 0 && sides[f] == OutlineSide::Open) open.push_back(f);
+    const std::size_t far = added.size();
+    for (std::uint32_t f = 0; f < settles.size(); ++f)
+        if (settles[f] != 0 && sides[f] == OutlineSide::Unknown) added.push_back(f);
+    PartCopy part(store, solid, added, kept);
+    for (const std::uint32_t f : kept) part.keep(f, *how.for_assembly);
+    for (const std::uint32_t f : added) part.add(f);
+    if (how.sides != nullptr)
+        for (const std::uint32_t f : std::span(added).subspan(far)) part.share(f);
+    for (std::size_t f = 0; f < settles.size(); ++f)
+        if (settles[f] != 0 && sides[f] == OutlineSide::Closed) part.drop(f);
+    part.part().far = far;
     leave_out(store, solid, settles, part);
     store.add_settled(part.take());
 }

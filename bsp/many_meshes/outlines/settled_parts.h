@@ -63,10 +63,12 @@ private:
 /// What becomes of facets that settle.
 struct Settling {
     /// Of a boundary that the solid will be intersected with; else nothing is known of any. Facets
-    /// that are not beside it come first in their part. Vertices of those beside it are shared.
+    /// that are not beside it come first in their part, and those that it does not leave open go
+    /// (OutlinedSolid::united). Vertices of those beside it are shared.
     const BoundarySides* sides = nullptr;
-    /// Whole facets that are not beside it go without outlines: nothing joins the parts again.
-    bool leaves_outlines = false;
+    /// Not null where nothing joins the parts again: then facets that are not beside the boundary
+    /// are kept as assembly takes them. \pre `sides`
+    const ManyMeshes* for_assembly = nullptr;
 };
 
 /// Moves facets of the last solid that are within a box out of the way, to its settled parts,
@@ -77,7 +79,7 @@ void settle(OutlineStore& store, OutlineStore::Solid& solid, const ClearBox& cle
 /// All that is left, however few: nothing is to come.
 void settle_rest(OutlineStore& store, OutlineStore::Solid& solid, const Settling& how);
 
-/// Puts all parts of the last solid back, each vertex once. O(n) \pre all have outlines
+/// Puts all parts of the last solid back, each vertex once. O(n) \pre all are in `facets`
 void join_settled(OutlineStore& store, OutlineStore::Solid& solid);
 
 }  // namespace trisect::detail

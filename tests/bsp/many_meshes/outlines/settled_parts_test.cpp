@@ -187,36 +187,47 @@ TEST_F(SettledParts, LieOnSidesOfABoundary) {
     OutlineStore::Solid boundary = others.add_operand(meshes_, 0, true);
     settle(others, boundary, below(0, 0.8));
     const BoundarySides sides(others.view(boundary));
-    settle_rest(store_, solid_, {&sides, true});
+    settle_rest(store_, solid_, {&sides, &meshes_});
     const OutlinedSolid all = store_.view(solid_);
     EXPECT_TRUE(all.facets.empty());
     ASSERT_EQ(all.settled.size(), 1U);
     const auto& part = *all.settled[0];
-    EXPECT_TRUE(part.whole_closed.empty());
-    EXPECT_EQ(part.open, 0U);  // those are whole
+    EXPECT_TRUE(part.kept.empty());  // those are whole
     EXPECT_EQ(part.far, 0U);
-    EXPECT_GT(part.whole_open.size(), facets_.size() / 2);
-    EXPECT_EQ(part.whole_open.size() + part.facets.size(), facets_.size());
+    EXPECT_GT(part.kept_whole.size(), facets_.size() / 2);
+    EXPECT_EQ(part.kept_whole.size() + part.facets.size(), facets_.size());
     for (const auto& box : part.boxes) EXPECT_EQ(sides.side_of(box), OutlineSide::Unknown);
     for (const OutlineVertex& v : part.vertices) EXPECT_TRUE(v.is_shared);
     std::set<std::uint32_t> numbers;
-    for (const auto& w : part.whole_open) numbers.insert(w.number);
+    for (const auto& w : part.kept_whole) numbers.insert(w.number);
     for (const auto& f : part.facets) numbers.insert(f.number);
     EXPECT_EQ(numbers.size(), facets_.size());
 }
 
-TEST_F(SettledParts, HaveOutlinesOnASideUnlessTheseAreLeft) {
+TEST_F(SettledParts, GoWhereABoundaryDoesNotLeaveThemOpen) {
     OutlineStore others;
     OutlineStore::Solid boundary = others.add_operand(meshes_, 0, false);
     settle(others, boundary, below(0, 0.8));
     const BoundarySides sides(others.view(boundary));
-    settle_rest(store_, solid_, {&sides, false});
+    settle_rest(store_, solid_, {&sides, nullptr});
     const auto& part = *store_.view(solid_).settled[0];
-    EXPECT_EQ(part.open, 0U);  // what is far out is closed
+    EXPECT_EQ(part.far, 0U);  // what is far out is closed
+    EXPECT_GT(part.facets.size(), 0U);
+    EXPECT_LT(part.facets.size(), facets_.size() / 2);
+    for (const auto& box : part.boxes) EXPECT_EQ(sides.side_of(box), OutlineSide::Unknown);
+}
+
+TEST_F(SettledParts, HaveOutlinesWhereTheyAreJoinedAgain) {
+    OutlineStore others;
+    OutlineStore::Solid boundary = others.add_operand(meshes_, 0, true);
+    settle(others, boundary, below(0, 0.8));
+    const BoundarySides sides(others.view(boundary));
+    settle_rest(store_, solid_, {&sides, nullptr});
+    const auto& part = *store_.view(solid_).settled[0];
     EXPECT_GT(part.far, facets_.size() / 2);
     for (std::size_t f = 0; f < part.facets.size(); ++f)
         EXPECT_EQ(sides.side_of(part.boxes[f]),
-                  f < part.far ? OutlineSide::Closed : OutlineSide::Unknown);
+                  f < part.far ? OutlineSide::Open : OutlineSide::Unknown);
     expect_all_facets();
 }
 
