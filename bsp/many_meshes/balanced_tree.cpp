@@ -44,14 +44,7 @@ std::optional<OutlineStore::Solid> BalancedTree::of_all(EvaluateStats& stats) co
         [&](EvaluateStats& s) { return of_rest(s); });
 }
 
-// With what that is of, once it is all. The lines of all threads are with it.
-std::pair<OutlineStore, OutlineStore::Lines> BalancedTree::take_store() {
-    OutlineStore::Lines lines;
-    common_.for_each([&](CommonPart& c) {
-        for (auto& l : c.store().take_lines()) lines.push_back(std::move(l));
-    });
-    return {std::move(common().store()), std::move(lines)};
-}
+OutlineStore BalancedTree::take_store() { return std::move(common().store()); }
 
 std::optional<OutlineStore::Solid> BalancedTree::of_operand(std::uint32_t slot) const {
     return common().store().add_operand(meshes_, slot, order_.is_open_far(slot));

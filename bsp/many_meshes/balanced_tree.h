@@ -31,8 +31,8 @@ public:
 
     /// What all operands leave open together. Nothing where sides are not known.
     [[nodiscard]] std::optional<Solid> of_all(EvaluateStats& stats) const;
-    /// With what that is of, once it is all. The lines of all threads are with it.
-    [[nodiscard]] std::pair<OutlineStore, OutlineStore::Lines> take_store();
+    /// With what that is of, once it is all.
+    [[nodiscard]] OutlineStore take_store();
 
     /// Of all so far; in no order.
     template <class Each>

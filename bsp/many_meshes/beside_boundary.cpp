@@ -94,13 +94,16 @@ Side BesideBoundary::side_at(const OutlineVertex& vertex) const {
 OutlineStore::Solid BesideBoundary::join_near(SettledParts& parts) const {
     std::size_t facets = 0;
     std::size_t edges = 0;
-    for (const auto& part : parts)
+    std::size_t lines = 0;
+    for (const auto& part : parts) {
+        lines += part->lines.size();
         for (std::size_t f = part->far; f < part->facets.size(); ++f) {
             ++facets;
             edges += part->facets[f].count;
         }
+    }
     JoinedParts near(common_.store());
-    near.reserve(facets, edges, edges / 3, threads_);
+    near.reserve(facets, edges, edges / 3, lines, threads_);
     for (const auto& part : parts) {
         if (part->far == part->facets.size()) continue;
         near.begin(*part);
@@ -111,6 +114,7 @@ OutlineStore::Solid BesideBoundary::join_near(SettledParts& parts) const {
             part->facets = {};
             part->boxes = {};
             part->edges = {};
+            part->lines = {};
         }
     }
     return near.solid();

@@ -27,6 +27,11 @@ public:
         keys_.clear();
         added_.clear();
     }
+    /// For so many.
+    void reserve(std::size_t items) {
+        keys_.reserve(items);
+        added_.reserve(items);
+    }
     void add(std::uint32_t key, const Item& item) {
         keys_.push_back(key);
         added_.push_back(item);

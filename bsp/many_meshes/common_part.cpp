@@ -98,7 +98,7 @@ private:
     struct Cut {
         std::uint32_t from = 0;  // vertices that were made
         std::uint32_t to = 0;
-        const FacetCrossing* line = nullptr;
+        EdgeOrigin line;
     };
     using Side = VertexSides::Side;
 
@@ -108,8 +108,9 @@ private:
         return std::span(near_[solid]).first(near_count_[solid]);
     }
     [[nodiscard]] bool find_cuts(EvaluateStats& stats);
+    void reserve_for(std::size_t pairs);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
-                 const FacetCrossing& line);
+                 const EdgeOrigin& line);
     [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
                                           const std::array<std::uint32_t, 2>& places);
     // To the facet of the other solid that it crosses.
@@ -197,13 +198,25 @@ void CommonPart::Steps::find_near(std::size_t solid) {
     near_count_[solid] = count;
 }
 
+// Lines are looked at while others are added, so they stay where they are.
+void CommonPart::Steps::reserve_for(std::size_t pairs) {
+    constexpr std::size_t many_pairs = 4096;
+    PoolVector<FacetCrossing>& lines = store_.lines();
+    if (const std::size_t wanted = lines.size() + pairs; wanted > lines.capacity())
+        lines.reserve(wanted + wanted / 2);
+    for (OutlinedSolid& s : solids_) s.lines = lines;
+    if (pairs > many_pairs) made_by_name_.reserve(pairs);
+}
+
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
     if (!finder_.find(solids_[0], solids_[1], {near(0), near(1)}, stats)) return false;
+    reserve_for(finder_.pairs().size());
     for (const CrossedFacets& c : finder_.pairs()) {
         if (!segments_.find(c.places, c.crossing)) return false;
         if (segments_.segments().empty()) continue;
-        const FacetCrossing* const line = store_.add_line(c.crossing);
-        for (const CommonSegment& s : segments_.segments()) add_cut(c.places, s, *line);
+        const EdgeOrigin line = EdgeOrigin::of_line(store_.lines().size());
+        store_.lines().push_back(c.crossing);
+        for (const CommonSegment& s : segments_.segments()) add_cut(c.places, s, line);
     }
     return true;
 }
@@ -211,7 +224,7 @@ bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
 // On the first facet what lies below the second one is to the left of the crossing, on the second
 // one what lies above the first.
 void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
-                                const CommonSegment& segment, const FacetCrossing& line) {
+                                const CommonSegment& segment, const EdgeOrigin& line) {
     const std::array<bool, 2> along{is_open_below(1, places), !is_open_below(0, places)};
     std::array<std::uint32_t, 2> ends{};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -223,7 +236,7 @@ void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
         stops_.add(end.edge, {ends[k], (k == 1) == along[owner], cutter, places[owner]});
     }
     for (std::size_t i = 0; i < 2; ++i)
-        cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], &line});
+        cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], line});
 }
 
 // Two facets share the edge.
@@ -241,7 +254,7 @@ std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
     v.at = end.at;
     const std::uint32_t own = solids_[owner].facets[places[owner]].number;
     const std::uint32_t other = solids_[1 - owner].facets[places[1 - owner]].number;
-    if (const FacetCrossing* line = e.origin.line(); line == nullptr) {
+    if (const FacetCrossing* line = solids_[owner].line_of(e); line == nullptr) {
         v.kind = OutlineVertex::Kind::Pierce;
         v.which = e.origin.own();
         v.facets = {own, other, 0};
@@ -263,7 +276,7 @@ bool CommonPart::Steps::sort_stops(const OutlinedSolid::Edge& edge, std::uint32_
 // line where that has what is open on its left (add_cut).
 int CommonPart::Steps::order_of_stops(const OutlinedSolid::Edge& edge, std::uint32_t facet,
                                       const Stop& a, const Stop& b) const {
-    const FacetCrossing* crossing = edge.origin.line();
+    const FacetCrossing* crossing = solids_[0].line_of(edge);
     if (crossing == nullptr)
         return exact_.order_on_edge(facet, edge.origin.own(), a.cutter, b.cutter);
     const std::array<std::uint32_t, 2>& line = crossing->facets;
@@ -427,7 +440,7 @@ std::uint32_t CommonPart::Steps::add_edges_of_cut(std::size_t solid, std::uint32
         if (open) edges.push_back({at, edge.to, edge.origin});
     }
     for (const Cut& c : cuts_[solid].of(place))
-        edges.push_back({kept_made(c.from), kept_made(c.to), EdgeOrigin(c.line)});
+        edges.push_back({kept_made(c.from), kept_made(c.to), c.line});
     return first;
 }
 

@@ -137,7 +137,7 @@ bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet
         p.of_second = solid == 1;
         p.enters = (to > 0) == (solid == 0);
         p.edge = e;
-        const FacetCrossing* line = edge.origin.line();
+        const FacetCrossing* line = s.line_of(edge);
         if (!(line == nullptr ? place_own(p, edge.origin.own())
                               : place_on_line(p, facet, *line, other)))
             return false;

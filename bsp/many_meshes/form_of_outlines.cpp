@@ -144,9 +144,12 @@ public:
             }
             return;
         }
-        for (const OutlinedSolid::Edge& e : others(f))
-            *out++ = meshes_.edge_for_assembly(vertex + e.from, vertex + e.to, e.origin, f.number,
-                                               f.slot);
+        for (const OutlinedSolid::Edge& e : others(f)) {
+            *out = parts_[f.part].solid.for_assembly(meshes_, e, f.number, f.slot);
+            out->from += vertex;
+            out->to += vertex;
+            ++out;
+        }
     }
     // Edges of a facet, and their lines, lie anywhere in memory.
     void prefetch(const CutFacet& f) const {
@@ -157,7 +160,8 @@ public:
     }
     void prefetch_lines(const CutFacet& f) const {
         if (f.is_kept) return;
-        for (const OutlinedSolid::Edge& e : others(f)) __builtin_prefetch(e.origin.line());
+        for (const OutlinedSolid::Edge& e : others(f))
+            __builtin_prefetch(parts_[f.part].solid.line_of(e));
     }
 
 private:

@@ -25,7 +25,6 @@
 #include <array>
 #include <cstddef>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -148,7 +147,6 @@ constexpr std::size_t facets_to_leave_sheets = 24;
 // What all operands leave open together, and the facets in special position.
 struct CommonOfAll {
     OutlineStore store;
-    OutlineStore::Lines lines;           // that edges lie in
     std::vector<std::uint32_t> special;  // ascending
     bool has_sheets = false;             // or may have
 };
@@ -167,7 +165,7 @@ void add_sharing(CommonOfAll& common, std::size_t facet_count) {
             if (is_special[f.number] != 0) continue;
             const auto edges = part.edges_of(f);
             if (std::ranges::any_of(edges, [&](const OutlinedSolid::Edge& e) {
-                    const FacetCrossing* line = e.origin.line();
+                    const FacetCrossing* line = part.line_of(e);
                     return line != nullptr &&
                            (is_special[line->facets[0]] != 0 || is_special[line->facets[1]] != 0);
                 }))
@@ -224,7 +222,7 @@ std::optional<CommonOfAll> common_of_all(ManyMeshes& meshes, const SolidStates& 
         std::optional<OperandShifts> next;
         if (!as_wanted && !leaves_sheets) next = OperandShifts::satisfying(growths, wanted);
         if (!next) {
-            std::tie(out.store, out.lines) = tree.take_store();
+            out.store = tree.take_store();
             add_sharing(out, meshes.facet_count());
             out.has_sheets = !as_wanted;
             stats = made;

@@ -201,7 +201,7 @@ private:
         if (from == order(e.to, 1)) return false;
         const int near = order_in_doubles(e.from, 0);
         if (near != 0 && near == order_in_doubles(e.to, 0)) return near > 0;
-        return exact_.order_at_height(facet, e, from_, {0, 1}) > 0;
+        return exact_.order_at_height(solid_, facet, e, from_, {0, 1}) > 0;
     }
     [[nodiscard]] int order_in_doubles(std::uint32_t vertex, std::size_t axis) const {
         const Approximation& at = solid_.vertices[vertex].at;

@@ -555,10 +555,10 @@ int ShiftedPoints::order_along(const OutlineVertex& vertex, const OutlineVertex&
         [&](auto& sides) { return sides.side_of(vertex, sides.across(axis, corner)); });
 }
 
-int ShiftedPoints::order_at_height(std::uint32_t facet, const OutlinedSolid::Edge& edge,
-                                   const OutlineVertex& corner,
+int ShiftedPoints::order_at_height(const OutlinedSolid& solid, std::uint32_t facet,
+                                   const OutlinedSolid::Edge& edge, const OutlineVertex& corner,
                                    const std::array<std::size_t, 2>& axes) const {
-    const FacetCrossing* line = edge.origin.line();
+    const FacetCrossing* line = solid.line_of(edge);
     const bool whole = is_whole(meshes_, corner) &&
                        (line == nullptr ? are_whole(meshes_, {facet})
                                         : are_whole(meshes_, {line->facets[0], line->facets[1]}));

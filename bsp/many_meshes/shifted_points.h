@@ -61,9 +61,9 @@ public:
     [[nodiscard]] int order_along(const OutlineVertex& vertex, const OutlineVertex& corner,
                                   std::size_t axis) const;
     /// The same along the first axis of the point of an edge of an outline that is at the corner's
-    /// height along the second one. \pre there is one
-    [[nodiscard]] int order_at_height(std::uint32_t facet, const OutlinedSolid::Edge& edge,
-                                      const OutlineVertex& corner,
+    /// height along the second one. `solid`: whose edge it is. \pre there is one
+    [[nodiscard]] int order_at_height(const OutlinedSolid& solid, std::uint32_t facet,
+                                      const OutlinedSolid::Edge& edge, const OutlineVertex& corner,
                                       const std::array<std::size_t, 2>& axes) const;
     /// The sign of a facet's normal along an axis.
     [[nodiscard]] int slope(std::uint32_t facet, std::size_t axis) const;

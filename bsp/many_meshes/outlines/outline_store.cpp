@@ -16,12 +16,19 @@ namespace {
 constexpr std::size_t many_facets = std::size_t{1} << 20;
 constexpr std::size_t most_reserved = std::size_t{1} << 21;
 
+constexpr std::uint32_t unused = ~std::uint32_t{0};
+
 // Of corners, which have no errors.
 OutlineBox box_of(const Vector3& a, const Vector3& b, const Vector3& c) {
     BoxSum out({a, a});
     out.add({b, b});
     out.add({c, c});
     return out.box();
+}
+
+// Where lines begin at another number.
+EdgeOrigin moved(const EdgeOrigin& origin, std::size_t from, std::size_t to) {
+    return origin.has_line() ? EdgeOrigin::of_line(origin.line() - from + to) : origin;
 }
 
 }  // namespace
@@ -34,6 +41,7 @@ void OutlineStore::reserve(const ManyMeshes& meshes) {
     const std::size_t some = std::min(facets, most_reserved);
     edges_.reserve(3 * some);
     vertices_.reserve(some);
+    lines_.reserve(some);
 }
 
 OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
@@ -41,6 +49,7 @@ OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
     out.facets = facets_.size();
     out.edges = edges_.size();
     out.vertices = vertices_.size();
+    out.lines = lines_.size();
     out.settled = settled_.size();
     out.open_far_out = open_far_out;
     return out;
@@ -53,6 +62,7 @@ OutlinedSolid OutlineStore::view(const Solid& solid, const Solid& next) const {
     out.boxes = std::span(boxes_).subspan(solid.facets, count);
     out.edges = edges_;
     out.vertices = vertices_;
+    out.lines = lines_;
     out.box = solid.box;
     out.settled = std::span(settled_).subspan(solid.settled, next.settled - solid.settled);
     out.open_far_out = solid.open_far_out;
@@ -98,6 +108,7 @@ void OutlineStore::cut_off(const Solid& solid) {
     boxes_.resize(solid.facets);
     edges_.resize(solid.edges);
     vertices_.resize(solid.vertices);
+    lines_.resize(solid.lines);
     settled_.resize(solid.settled);
 }
 
@@ -110,6 +121,7 @@ SettledParts OutlineStore::take_out(const Solid& solid) {
     rest.boxes.reserve(facets_.size() - solid.facets);
     rest.edges.reserve(edges_.size() - solid.edges);
     rest.vertices.reserve(vertices_.size() - solid.vertices);
+    rest.lines.reserve(lines_.size() - solid.lines);
     rest.box = solid.box;
     const auto end_of = [](auto& items, std::size_t first) {
         return std::span(items).subspan(first);
@@ -120,8 +132,9 @@ SettledParts OutlineStore::take_out(const Solid& solid) {
         rest.facets.push_back({f.number, f.slot, f.first - edge, f.count, f.whole});
     for (const OutlineBox& b : end_of(boxes_, solid.facets)) rest.boxes.push_back(b);
     for (const Edge& e : end_of(edges_, solid.edges))
-        rest.edges.push_back({e.from - vertex, e.to - vertex, e.origin});
+        rest.edges.push_back({e.from - vertex, e.to - vertex, moved(e.origin, solid.lines, 0)});
     for (const OutlineVertex& v : end_of(vertices_, solid.vertices)) rest.vertices.push_back(v);
+    for (const FacetCrossing& l : end_of(lines_, solid.lines)) rest.lines.push_back(l);
     cut_off(solid);
     return out;
 }
@@ -138,8 +151,10 @@ OutlineStore::Solid OutlineStore::put(SettledParts parts, const Solid& solid) {
     for (const Facet& f : rest->facets)
         facets_.push_back({f.number, f.slot, f.first + edge, f.count, f.whole});
     boxes_.insert(boxes_.end(), rest->boxes.begin(), rest->boxes.end());
-    for (const Edge& e : rest->edges) edges_.push_back({e.from + vertex, e.to + vertex, e.origin});
+    for (const Edge& e : rest->edges)
+        edges_.push_back({e.from + vertex, e.to + vertex, moved(e.origin, 0, out.lines)});
     vertices_.insert(vertices_.end(), rest->vertices.begin(), rest->vertices.end());
+    lines_.insert(lines_.end(), rest->lines.begin(), rest->lines.end());
     for (auto& part : parts) settled_.push_back(std::move(part));
     return out;
 }
@@ -175,24 +190,15 @@ OutlineStore::Solid OutlineStore::second_only(const Solid& first, const Solid& s
     out.facets = first.facets;
     out.edges = first.edges;
     out.vertices = first.vertices;
+    out.lines = first.lines;
     out.settled = first.settled;
     out.unused_edges += second.edges - first.edges;
     tidy(out);
     return out;
 }
 
-const FacetCrossing* OutlineStore::add_line(const FacetCrossing& line) {
-    constexpr std::size_t lines_at_once = 3000;
-    if (lines_.empty() || lines_.back()->size() == lines_at_once) {
-        lines_.push_back(std::make_unique<PoolVector<FacetCrossing>>());
-        lines_.back()->reserve(lines_at_once);
-    }
-    return &lines_.back()->emplace_back(line);
-}
-
 void OutlineStore::tidy(Solid& solid) {
     if (2 * solid.unused_edges <= edges_.size() - solid.edges) return;
-    constexpr std::uint32_t unused = ~std::uint32_t{0};
     tidy_edges_.clear();
     tidy_edges_.reserve(edges_.size() - solid.edges - solid.unused_edges);
     for (std::size_t i = solid.facets; i < facets_.size(); ++i) {
@@ -201,6 +207,15 @@ void OutlineStore::tidy(Solid& solid) {
         f.first = static_cast<std::uint32_t>(solid.edges + tidy_edges_.size());
         tidy_edges_.insert(tidy_edges_.end(), own.begin(), own.end());
     }
+    tidy_vertices(solid);
+    tidy_lines(solid);
+    edges_.resize(solid.edges);
+    edges_.insert(edges_.end(), tidy_edges_.begin(), tidy_edges_.end());
+    solid.unused_edges = 0;
+}
+
+// Of edges that are left.
+void OutlineStore::tidy_vertices(const Solid& solid) {
     numbers_.assign(vertices_.size() - solid.vertices, unused);
     for (const Edge& e : tidy_edges_) numbers_[e.from - solid.vertices] = 0;
     std::size_t next = solid.vertices;
@@ -214,9 +229,23 @@ void OutlineStore::tidy(Solid& solid) {
         e.from = numbers_[e.from - solid.vertices];
         e.to = numbers_[e.to - solid.vertices];
     }
-    edges_.resize(solid.edges);
-    edges_.insert(edges_.end(), tidy_edges_.begin(), tidy_edges_.end());
-    solid.unused_edges = 0;
+}
+
+void OutlineStore::tidy_lines(const Solid& solid) {
+    if (lines_.size() == solid.lines) return;
+    numbers_.assign(lines_.size() - solid.lines, unused);
+    for (const Edge& e : tidy_edges_)
+        if (e.origin.has_line()) numbers_[e.origin.line() - solid.lines] = 0;
+    std::size_t next = solid.lines;
+    for (std::size_t i = 0; i < numbers_.size(); ++i) {
+        if (numbers_[i] == unused) continue;
+        numbers_[i] = static_cast<std::uint32_t>(next);
+        lines_[next++] = lines_[solid.lines + i];
+    }
+    lines_.resize(next);
+    for (Edge& e : tidy_edges_)
+        if (e.origin.has_line())
+            e.origin = EdgeOrigin::of_line(numbers_[e.origin.line() - solid.lines]);
 }
 
 }  // namespace trisect::detail

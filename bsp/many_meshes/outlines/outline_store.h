@@ -18,7 +18,7 @@ namespace trisect::detail {
 
 /// Solids come and go as on a stack, since a balanced tree is evaluated so: what two of them, the
 /// last ones, have in common takes their place, and most of it lies where it was. Numbers of
-/// vertices and edges are those of the whole store.
+/// vertices, edges and lines are those of the whole store.
 class OutlineStore {
 public:
     /// Where one begins; it ends where the next one does, or with the store.
@@ -26,6 +26,7 @@ public:
         std::size_t facets = 0;
         std::size_t edges = 0;
         std::size_t vertices = 0;
+        std::size_t lines = 0;
         std::size_t settled = 0;
         std::size_t unused_edges = 0;  ///< those that no facet has
         OutlineBox box = OutlineBox::none();
@@ -73,25 +74,24 @@ public:
     [[nodiscard]] PoolVector<Edge>& edges() { return edges_; }
     [[nodiscard]] const Edge& edge(std::size_t i) const { return edges_[i]; }
     [[nodiscard]] PoolVector<OutlineVertex>& vertices() { return vertices_; }
-    /// A line that edges may lie in; it stays where it is, also when solids are taken out.
-    [[nodiscard]] const FacetCrossing* add_line(const FacetCrossing& line);
-    /// Takes out edges that no facet has, and vertices that no edge has, where they are many. Their
-    /// order stays. \pre the last solid
+    /// Lines that edges lie in.
+    [[nodiscard]] PoolVector<FacetCrossing>& lines() { return lines_; }
+    /// Takes out edges that no facet has, and vertices and lines that no edge has, where they are
+    /// many. Their order stays. \pre the last solid
     void tidy(Solid& solid);
 
-    using Lines = std::vector<std::unique_ptr<PoolVector<FacetCrossing>>>;
-    /// All of them.
-    [[nodiscard]] Lines take_lines() { return std::move(lines_); }
-
 private:
+    void tidy_vertices(const Solid& solid);
+    void tidy_lines(const Solid& solid);
+
     PoolVector<Facet> facets_;
     PoolVector<OutlineBox> boxes_;
     PoolVector<Edge> edges_;
     PoolVector<OutlineVertex> vertices_;
     SettledParts settled_;
-    Lines lines_;
+    PoolVector<FacetCrossing> lines_;
     PoolVector<Edge> tidy_edges_;
-    PoolVector<std::uint32_t> numbers_;  // of vertices, when they are tidied up
+    PoolVector<std::uint32_t> numbers_;  // of vertices or lines, when they are tidied up
 };
 
 }  // namespace trisect::detail

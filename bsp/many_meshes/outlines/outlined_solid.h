@@ -24,26 +24,28 @@
 
 namespace trisect::detail {
 
-/// What an edge of a part of a facet lies in: a line with a cutter, or an edge of the facet. There
-/// are many of them, so one word has either.
+/// What an edge of a part of a facet lies in: a line with a cutter, by its number, or an edge of
+/// the facet. There are many of them, so one word has either.
 class EdgeOrigin {
 public:
     EdgeOrigin() = default;
-    explicit EdgeOrigin(const FacetCrossing* line)
-        : bits_(reinterpret_cast<std::uintptr_t>(line)) {}
+    /// From that corner of the facet to the next one.
     explicit EdgeOrigin(std::uint32_t own) : bits_(own) {}
-
-    /// Null for an edge of the facet.
-    [[nodiscard]] const FacetCrossing* line() const {
-        return bits_ < 3 ? nullptr : reinterpret_cast<const FacetCrossing*>(bits_);
+    [[nodiscard]] static EdgeOrigin of_line(std::size_t number) {
+        return EdgeOrigin(static_cast<std::uint32_t>(number) + first_line);
     }
-    /// From that corner of the facet to the next one; -1 for a line.
+
+    [[nodiscard]] bool has_line() const { return bits_ >= first_line; }
+    /// \pre has_line()
+    [[nodiscard]] std::uint32_t line() const { return bits_ - first_line; }
+    /// -1 for a line.
     [[nodiscard]] std::int8_t own() const {
-        return bits_ < 3 ? static_cast<std::int8_t>(bits_) : std::int8_t{-1};
+        return has_line() ? std::int8_t{-1} : static_cast<std::int8_t>(bits_);
     }
 
 private:
-    std::uintptr_t bits_ = 0;  // below 3: an edge of the facet
+    static constexpr std::uint32_t first_line = 3;
+    std::uint32_t bits_ = 0;  // below that an edge of the facet
 };
 
 /// The operands of a union, an intersection or a difference of imported meshes, or of these of each
@@ -73,16 +75,6 @@ struct ManyMeshes {
         const Source& s = *sources[slot];
         const std::uint32_t facet = number - operands->operands[slot].first;
         return {&s.corner(facet, 0), &s.corner(facet, 1), &s.corner(facet, 2)};
-    }
-    /// As assembly takes an edge of a facet.
-    [[nodiscard]] OutlinedFacets::Edge edge_for_assembly(std::uint32_t from, std::uint32_t to,
-                                                         const EdgeOrigin& origin,
-                                                         std::uint32_t number,
-                                                         std::uint32_t slot) const {
-        const FacetCrossing* const line = origin.line();
-        if (line == nullptr) return {from, to, 0, origin.own(), false};
-        const std::uint32_t cutter = line->facets[line->facets[0] == number ? 1 : 0];
-        return {from, to, cutter, -1, is_open_below(slot_of(cutter), slot)};
     }
     [[nodiscard]] std::array<Vector3, 3> corners(std::uint32_t slot, std::uint32_t facet) const {
         const Source& s = *sources[slot];
@@ -171,6 +163,7 @@ struct OutlinedSolid {
     std::span<const OutlineBox> boxes;        ///< of their parts
     std::span<const Edge> edges;              ///< those of other solids, too
     std::span<const OutlineVertex> vertices;  ///< as well
+    std::span<const FacetCrossing> lines;     ///< that edges lie in, as well
     OutlineBox box = OutlineBox::none();      ///< of all
     /// More of the boundary, which nothing will meet any more (settled_parts.h).
     std::span<const std::unique_ptr<SettledPart>> settled;
@@ -181,6 +174,19 @@ struct OutlinedSolid {
 
     [[nodiscard]] std::span<const Edge> edges_of(const Facet& f) const {
         return edges.subspan(f.first, f.count);
+    }
+    /// Null for an edge of the facet.
+    [[nodiscard]] const FacetCrossing* line_of(const Edge& e) const {
+        return e.origin.has_line() ? &lines[e.origin.line()] : nullptr;
+    }
+    /// As assembly takes an edge of a facet.
+    [[nodiscard]] OutlinedFacets::Edge for_assembly(const ManyMeshes& meshes, const Edge& e,
+                                                    std::uint32_t number,
+                                                    std::uint32_t slot) const {
+        const FacetCrossing* const line = line_of(e);
+        if (line == nullptr) return {e.from, e.to, 0, e.origin.own(), false};
+        const std::uint32_t cutter = line->facets[line->facets[0] == number ? 1 : 0];
+        return {e.from, e.to, cutter, -1, meshes.is_open_below(meshes.slot_of(cutter), slot)};
     }
 };
 

@@ -14,13 +14,14 @@
 
 namespace trisect::detail {
 
-/// It has vertices and edges of its own, so it can go from one OutlineStore to another as it is.
-/// Vertices that the solid has elsewhere, too, are shared ones.
+/// It has vertices, edges and lines of its own, so it can go from one OutlineStore to another as it
+/// is. Vertices that the solid has elsewhere, too, are shared ones.
 struct SettledPart {
     PoolVector<OutlinedSolid::Facet> facets;
     PoolVector<OutlineBox> boxes;
     PoolVector<OutlinedSolid::Edge> edges;
     PoolVector<OutlineVertex> vertices;
+    PoolVector<FacetCrossing> lines;      ///< of those edges
     OutlineBox box = OutlineBox::none();  ///< of all, also of those that are not here any more
 
     /// Where sides of a boundary are known: so many facets come first that are not beside it.
@@ -43,6 +44,7 @@ struct SettledPart {
         out.boxes = boxes;
         out.edges = edges;
         out.vertices = vertices;
+        out.lines = lines;
         out.box = box;
         out.open_far_out = true;
         return out;

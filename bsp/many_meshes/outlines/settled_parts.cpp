@@ -35,6 +35,7 @@ public:
              std::span<const std::uint32_t> added, std::span<const std::uint32_t> kept)
         : solid_(store.view(solid)),
           first_vertex_(static_cast<std::uint32_t>(solid.vertices)),
+          first_line_(static_cast<std::uint32_t>(solid.lines)),
           numbers_(solid_.vertices.size() - solid.vertices, none),
           part_(std::make_unique<SettledPart>()) {
         // There are many parts: what they do not use would be a good part of all memory.
@@ -42,6 +43,7 @@ public:
         part_->facets.reserve(added.size());
         part_->boxes.reserve(added.size());
         part_->edges.reserve(count_edges(added, vertices));
+        part_->lines.reserve(count_lines(added));
         PoolVector<std::uint32_t> cut;
         for (const std::uint32_t f : kept)
             if (!solid_.facets[f].whole) cut.push_back(f);
@@ -54,7 +56,7 @@ public:
         const OutlinedSolid::Facet& f = solid_.facets[place];
         const auto first = static_cast<std::uint32_t>(part_->edges.size());
         for (const OutlinedSolid::Edge& e : solid_.edges_of(f))
-            part_->edges.push_back({number(e.from), number(e.to), e.origin});
+            part_->edges.push_back({number(e.from), number(e.to), origin(e)});
         part_->facets.push_back({f.number, f.slot, first, f.count, f.whole});
         part_->boxes.push_back(solid_.boxes[place]);
         part_->box.add(solid_.boxes[place]);
@@ -69,16 +71,16 @@ public:
         }
         const auto first = static_cast<std::uint32_t>(part_->kept_edges.size());
         for (const OutlinedSolid::Edge& e : solid_.edges_of(f))
-            part_->kept_edges.push_back(
-                meshes.edge_for_assembly(number(e.from), number(e.to), e.origin, f.number, f.slot));
+            part_->kept_edges.push_back(for_assembly(e, f, meshes));
         part_->kept.push_back({f.number, first, f.count});
     }
     // One that goes.
     void drop(std::size_t place) { part_->box.add(solid_.boxes[place]); }
-    // Vertices of a facet that was added are others', too.
-    void share(std::size_t place) {
+    // Those of a facet that was added are shared if they were there before so many.
+    void share(std::size_t place, std::size_t vertices) {
         for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[place]))
-            vertex(e.from)->is_shared = true;
+            if (OutlineVertex* const v = vertex(e.from); v < &part_->vertices[0] + vertices)
+                v->is_shared = true;
     }
     [[nodiscard]] SettledPart& part() { return *part_; }
     // Of a vertex of the solid, if the part has it; else null.
@@ -91,6 +93,33 @@ public:
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     static constexpr std::uint32_t wanted = none - 1;  // it has no number yet
+    [[nodiscard]] OutlinedFacets::Edge for_assembly(const OutlinedSolid::Edge& e,
+                                                    const OutlinedSolid::Facet& f,
+                                                    const ManyMeshes& meshes) {
+        OutlinedFacets::Edge out = solid_.for_assembly(meshes, e, f.number, f.slot);
+        out.from = number(e.from);
+        out.to = number(e.to);
+        return out;
+    }
+    [[nodiscard]] EdgeOrigin origin(const OutlinedSolid::Edge& e) {
+        if (!e.origin.has_line()) return e.origin;
+        std::uint32_t& line = lines_[e.origin.line() - first_line_];
+        if (line == wanted) {
+            line = static_cast<std::uint32_t>(part_->lines.size());
+            part_->lines.push_back(solid_.lines[e.origin.line()]);
+        }
+        return EdgeOrigin::of_line(line);
+    }
+    [[nodiscard]] std::size_t count_lines(std::span<const std::uint32_t> places) {
+        if (!places.empty()) lines_.assign(solid_.lines.size() - first_line_, none);
+        std::size_t lines = 0;
+        for (const std::uint32_t f : places)
+            for (const OutlinedSolid::Edge& e : solid_.edges_of(solid_.facets[f]))
+                if (e.origin.has_line() &&
+                    std::exchange(lines_[e.origin.line() - first_line_], wanted) == none)
+                    ++lines;
+        return lines;
+    }
     // Counts vertices that are wanted for the first time, too.
     [[nodiscard]] std::size_t count_edges(std::span<const std::uint32_t> places,
                                           std::size_t& vertices) {
@@ -113,7 +142,9 @@ private:
 
     OutlinedSolid solid_;
     std::uint32_t first_vertex_;
+    std::uint32_t first_line_;
     PoolVector<std::uint32_t> numbers_;  // by vertex of the solid
+    PoolVector<std::uint32_t> lines_;    // numbers of these, by line of the solid
     std::unique_ptr<SettledPart> part_;
 };
 
@@ -169,9 +200,12 @@ void settle_those(OutlineStore& store, OutlineStore::Solid& solid, const Settles
         if (settles[f] != 0 && sides[f] == OutlineSide::Unknown) added.push_back(f);
     PartCopy part(store, solid, added, kept);
     for (const std::uint32_t f : kept) part.keep(f, *how.for_assembly);
-    for (const std::uint32_t f : added) part.add(f);
+    const auto near = std::span(added).subspan(far);
+    for (const std::uint32_t f : std::span(added).first(far)) part.add(f);
+    const std::size_t vertices = part.part().vertices.size();
+    for (const std::uint32_t f : near) part.add(f);
     if (how.sides != nullptr)
-        for (const std::uint32_t f : std::span(added).subspan(far)) part.share(f);
+        for (const std::uint32_t f : near) part.share(f, vertices);
     for (std::size_t f = 0; f < settles.size(); ++f)
         if (settles[f] != 0 && sides[f] == OutlineSide::Closed) part.drop(f);
     part.part().far = far;
@@ -268,7 +302,7 @@ void settle_rest(OutlineStore& store, OutlineStore::Solid& solid, const Settling
 }
 
 void JoinedParts::reserve(std::size_t facets, std::size_t edges, std::size_t vertices,
-                          std::uint32_t threads) {
+                          std::size_t lines, std::uint32_t threads) {
     // With room for what is cut next.
     const auto reserve_more = [threads](auto& items, std::size_t more) {
         if (items.size() + more > items.capacity()) items.reserve(items.size() + more + more / 4);
@@ -278,9 +312,13 @@ void JoinedParts::reserve(std::size_t facets, std::size_t edges, std::size_t ver
     reserve_more(store_.boxes(), facets);
     reserve_more(store_.edges(), edges);
     reserve_more(store_.vertices(), vertices);
+    reserve_more(store_.lines(), lines);
 }
 
-void JoinedParts::begin(const SettledPart& part) { numbers_.assign(part.vertices.size(), none); }
+void JoinedParts::begin(const SettledPart& part) {
+    numbers_.assign(part.vertices.size(), none);
+    lines_.assign(part.lines.size(), none);
+}
 
 void JoinedParts::add(const SettledPart& part, std::size_t place) {
     const OutlinedSolid::Facet& f = part.facets[place];
@@ -288,11 +326,21 @@ void JoinedParts::add(const SettledPart& part, std::size_t place) {
     const auto first = static_cast<std::uint32_t>(edges.size());
     for (std::uint32_t i = f.first; i < f.first + f.count; ++i) {
         const OutlinedSolid::Edge& e = part.edges[i];
-        edges.push_back({number(part, e.from), number(part, e.to), e.origin});
+        edges.push_back({number(part, e.from), number(part, e.to), origin(part, e.origin)});
     }
     store_.facets().push_back({f.number, f.slot, first, f.count, f.whole});
     store_.boxes().push_back(part.boxes[place]);
     solid_.box.add(part.boxes[place]);
+}
+
+EdgeOrigin JoinedParts::origin(const SettledPart& part, const EdgeOrigin& origin) {
+    if (!origin.has_line()) return origin;
+    std::uint32_t& number = lines_[origin.line()];
+    if (number == none) {
+        number = static_cast<std::uint32_t>(store_.lines().size());
+        store_.lines().push_back(part.lines[origin.line()]);
+    }
+    return EdgeOrigin::of_line(number);
 }
 
 std::uint32_t JoinedParts::number(const SettledPart& part, std::uint32_t vertex) {
@@ -314,13 +362,15 @@ void join_settled(OutlineStore& store, OutlineStore::Solid& solid) {
     std::size_t facets = 0;
     std::size_t edges = 0;
     std::size_t vertices = 0;
+    std::size_t lines = 0;
     for (const auto& p : parts) {
         facets += p->facets.size();
         edges += p->edges.size();
         vertices += p->vertices.size();
+        lines += p->lines.size();
     }
     JoinedParts joined(store);
-    joined.reserve(facets, edges, vertices, 1);
+    joined.reserve(facets, edges, vertices, lines, 1);
     for (auto& p : parts) {
         joined.begin(*p);
         for (std::size_t f = 0; f < p->facets.size(); ++f) joined.add(*p, f);

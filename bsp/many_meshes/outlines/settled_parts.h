@@ -42,7 +42,7 @@ class JoinedParts {
 public:
     explicit JoinedParts(OutlineStore& store) : store_(store), solid_(store.empty_solid(true)) {}
     /// For so many more. `threads` as for ParallelParts.
-    void reserve(std::size_t facets, std::size_t edges, std::size_t vertices,
+    void reserve(std::size_t facets, std::size_t edges, std::size_t vertices, std::size_t lines,
                  std::uint32_t threads);
     /// The part of which facets follow.
     void begin(const SettledPart& part);
@@ -53,18 +53,20 @@ public:
 private:
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     [[nodiscard]] std::uint32_t number(const SettledPart& part, std::uint32_t vertex);
+    [[nodiscard]] EdgeOrigin origin(const SettledPart& part, const EdgeOrigin& origin);
 
     OutlineStore& store_;
     OutlineStore::Solid solid_;
     FlatMap shared_;
     PoolVector<std::uint32_t> numbers_;  // by vertex of the part
+    PoolVector<std::uint32_t> lines_;    // numbers of these, by line of the part
 };
 
 /// What becomes of facets that settle.
 struct Settling {
     /// Of a boundary that the solid will be intersected with; else nothing is known of any. Facets
     /// that are not beside it come first in their part, and those that it does not leave open go
-    /// (OutlinedSolid::united). Vertices of those beside it are shared.
+    /// (OutlinedSolid::united). Vertices that those beside it have with others are shared.
     const BoundarySides* sides = nullptr;
     /// Not null where nothing joins the parts again: then facets that are not beside the boundary
     /// are kept as assembly takes them. \pre `sides`
