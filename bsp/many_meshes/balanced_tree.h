@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BalancedTree: what many operands leave open together, combined pair by pair.
+// BalancedTree: operands that are combined pair by pair.
 #pragma once
 
 #include <cstddef>

@@ -205,7 +205,11 @@ void CommonPart::Steps::reserve_for(std::size_t pairs) {
     if (const std::size_t wanted = lines.size() + pairs; wanted > lines.capacity())
         lines.reserve(wanted + wanted / 2);
     for (OutlinedSolid& s : solids_) s.lines = lines;
-    if (pairs > many_pairs) made_by_name_.reserve(pairs);
+    if (pairs <= many_pairs) return;
+    made_by_name_.reserve(pairs);
+    made_.reserve(pairs);
+    stops_.reserve(2 * pairs);
+    for (auto& cuts : cuts_) cuts.reserve(pairs);
 }
 
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {

@@ -15,6 +15,7 @@
 #include <trisect/bsp/many_meshes/outlines/box_sum.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/touched_room.h>
 
 namespace trisect::detail {
 
@@ -155,7 +156,7 @@ bool CrossedFacetsFinder::find_in_cells(const Places& near) {
     });
     std::size_t count = 0;
     for (const auto& p : parts) count += p->finder.found_.size();
-    found_.reserve(count);
+    reserve_touched(found_, count, options_.threads == 1 ? 1 : 0);
     bool is_solved = true;
     for (auto& p : parts) {
         is_solved = is_solved && p->is_solved;

@@ -46,8 +46,19 @@ void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t t
     reserve_touched(outlined.vertices,
                     static_cast<std::size_t>(std::ranges::count(numbers, std::uint32_t{0})),
                     threads);
-    FlatMap shared;
     std::uint32_t* number = numbers.data();
+    const auto for_each_wanted = [&](const auto& each) {
+        number = numbers.data();
+        for (const Part& p : parts)
+            for (const OutlineVertex& v : p.solid.vertices) {
+                if (*number != unused) each(v);
+                ++number;
+            }
+    };
+    std::size_t shared_count = 0;
+    for_each_wanted([&](const OutlineVertex& v) { shared_count += v.is_shared ? 1 : 0; });
+    FlatMap shared;
+    shared.reserve(shared_count);
     const auto take = [&](const OutlineVertex& v) {
         const auto next = static_cast<std::uint32_t>(outlined.vertices.size());
         *number = next;
@@ -56,11 +67,7 @@ void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t t
                 shared.insert(name_of(v), static_cast<std::int32_t>(next)).first);
         if (*number == next) outlined.vertices.push_back(v);
     };
-    for (const Part& p : parts)
-        for (const OutlineVertex& v : p.solid.vertices) {
-            if (*number != unused) take(v);
-            ++number;
-        }
+    for_each_wanted(take);
     for (OutlinedFacets::Edge& e : outlined.edges) {
         e.from = numbers[e.from];
         e.to = numbers[e.to];
