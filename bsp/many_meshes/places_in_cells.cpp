@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/bsp/many_meshes/grid_counters.h>
+#include <trisect/kernel/diagnostics.h>
+
 namespace trisect::detail {
 
 namespace {
@@ -22,6 +25,9 @@ PlacesInCells::PlacesInCells(const std::array<const OutlinedSolid*, 2>& solids,
         const OutlineBox& b = solids[solid]->boxes[facet];
         return place.box(b.lo, b.hi);
     };
+    GridCounters& made = counters_of_thread<GridCounters>;
+    ++made.grids;
+    made.facets += places[0].size() + places[1].size();
     // What may meet lies where both are.
     SingleBox all = SingleBox::everywhere();
     for (std::size_t i = 0; i < 2; ++i) all.cut(place.box(solids[i]->box.lo, solids[i]->box.hi));

@@ -16,7 +16,7 @@ namespace trisect::detail {
 
 /// Of many facets that lie all over a place: a few thousand in a cell. Two boxes that meet are in
 /// one cell at least. Takes a number for each facet in a cell, where cells that are divided step by
-/// step would list boxes.
+/// step would list boxes. GridCounters has how often.
 class PlacesInCells {
 public:
     /// A facet of a cell; whether another cell may have it, too.

@@ -110,8 +110,8 @@ TEST(Neighbours, ApartFromLargerOnes) {
     expect_same_as_cells(s.large - others);
 }
 
-// Nothing crosses it, so a ray through all small ones says on which side it is, also through those
-// facets of which no outline is left.
+// Nothing crosses it, so the small ones whose boxes have it say on which side it is: of those
+// facets that have settled some are gone.
 TEST(Neighbours, LargeOneWithinASmallOne) {
     const Scene s = scene(20308, 150);
     const Expression inner = sphere(0.3, 2, {0.05, 0.12, 0.07});

@@ -14,8 +14,16 @@
 
 #include <gtest/gtest.h>
 
+#include <trisect/brep/primitives/sphere.h>
+#include <trisect/bsp/expression.h>
+#include <trisect/bsp/many_meshes/grid_counters.h>
+#include <trisect/bsp/solid.h>
+#include <trisect/kernel/diagnostics.h>
+
 namespace {
 
+using trisect::Diagnostics;
+using trisect::detail::GridCounters;
 using trisect::detail::OutlineBox;
 using trisect::detail::OutlinedSolid;
 using trisect::detail::PlacesInCells;
@@ -49,7 +57,10 @@ TEST(PlacesInCells, BoxesThatMeetAreInOneCell) {
     for (std::size_t i = 0; i < 2; ++i)
         for (std::uint32_t f = 0; f < boxes[i].size(); f += i == 0 ? 1 : 2) places[i].push_back(f);
     const SinglePlace place({-1000, -1000, -1000}, {1000, 1000, 1000});
+    const Diagnostics<GridCounters> diagnostics;
     const PlacesInCells cells({&solids[0], &solids[1]}, {places[0], places[1]}, place);
+    EXPECT_EQ(diagnostics.counters().grids, 1U);
+    EXPECT_EQ(diagnostics.counters().facets, 41000U);
     EXPECT_GT(cells.cell_count(), 1U);
 
     std::set<Pair> found;
@@ -77,6 +88,33 @@ TEST(PlacesInCells, BoxesThatMeetAreInOneCell) {
         for (const std::uint32_t b : places[1])
             if (boxes[0][a].meets(boxes[1][b])) wanted.insert({a, b});
     EXPECT_EQ(found, wanted);
+}
+
+trisect::Solid sphere(std::uint32_t subdivisions, double x) {
+    trisect::PolygonMesh mesh = trisect::make_icosphere(1, subdivisions);
+    for (trisect::Point3d& p : mesh.points) {
+        p[0] += x;
+        p[1] += 0.3 * x;
+    }
+    return trisect::Solid::from_mesh(mesh);
+}
+
+// A union of three; the last step compares two with one.
+TEST(PlacesInCells, AreForManyFacetsOnly) {
+    const auto grids = [](std::uint32_t subdivisions) {
+        const trisect::Expression all = trisect::Expression::any_of(
+            {sphere(subdivisions, 0), sphere(subdivisions, 0.11), sphere(subdivisions, 0.23)});
+        trisect::EvaluateOptions options;
+        options.threads = 1;
+        const Diagnostics<GridCounters> diagnostics;
+        static_cast<void>(trisect::evaluate(all, options));
+        const GridCounters made = diagnostics.counters();
+        EXPECT_EQ(made.facets == 0, made.grids == 0);
+        EXPECT_TRUE(made.grids == 0 || made.facets / made.grids >= 32768) << made.facets;
+        return made.grids;
+    };
+    EXPECT_EQ(grids(3), 0U);
+    EXPECT_EQ(grids(5), 2U);
 }
 
 }  // namespace
