@@ -27,6 +27,7 @@
 #include <trisect/bsp/flat/flat_mesh.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/ordered_parts.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/pool_allocator.h>
@@ -57,35 +58,49 @@ constexpr std::size_t least_cut_edges = 1024;
 // By source: the numbers of its corners in the mesh.
 using CornerTables = std::vector<PoolVector<std::uint32_t>>;
 
-// Marks the corners of the facets that pass through as in use. Several threads mark the same ones,
-// and look first, so that they need not wait for each other's caches.
+// Marks the corners of the facets in groups of eight that pass through as in use.
+void mark_corners(const FacetMarks& marks, std::size_t begin, std::size_t end,
+                  std::uint32_t* table) {
+    const Triangle* const triangles = marks.source()->mesh().triangles.data();
+    const auto mark = [=](std::uint32_t facet, bool) {
+        for (const std::uint32_t v : triangles[facet]) table[v] = in_use;
+    };
+    const auto mark_eight = [=](std::uint32_t facet) {
+        for (std::uint32_t k = 0; k < 8; ++k) mark(facet + k, false);
+    };
+    marks.for_each_whole(begin, end, mark_eight, mark);
+}
+
+// The same where several threads mark the same ones. They look first, so that they need not wait
+// for each other's caches.
+void mark_shared(std::uint32_t& number) {
+    const std::atomic_ref shared(number);
+    if (shared.load(std::memory_order_relaxed) == no_number)
+        shared.store(in_use, std::memory_order_relaxed);
+}
+void mark_corners_shared(const FacetMarks& marks, std::size_t begin, std::size_t end,
+                         std::uint32_t* table) {
+    const Triangle* const triangles = marks.source()->mesh().triangles.data();
+    marks.for_each_whole(begin, end, [=](std::uint32_t facet, bool) {
+        for (const std::uint32_t v : triangles[facet]) mark_shared(table[v]);
+    });
+}
+
 CornerTables corners_in_use(const BoundaryParts& parts, std::uint32_t threads) {
-    CornerTables tables;
-    for (const FacetMarks& marks : parts.sources) {
-        const Triangle* const triangles = marks.source()->mesh().triangles.data();
-        const std::size_t count = marks.source()->mesh().points.size();
-        std::uint32_t* const table = tables.emplace_back(count, no_number).data();
-        const ParallelParts of_groups(marks.group_count(), threads, least_group_count);
-        if (of_groups.count() == 1) {
-            const auto mark = [=](std::uint32_t facet, bool) {
-                for (const std::uint32_t v : triangles[facet]) table[v] = in_use;
-            };
-            const auto mark_eight = [=](std::uint32_t facet) {
-                for (std::uint32_t k = 0; k < 8; ++k) mark(facet + k, false);
-            };
-            marks.for_each_whole(0, marks.group_count(), mark_eight, mark);
-            continue;
-        }
-        of_groups.for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            marks.for_each_whole(begin, end, [=](std::uint32_t facet, bool) {
-                for (const std::uint32_t v : triangles[facet]) {
-                    const std::atomic_ref corner(table[v]);
-                    if (corner.load(std::memory_order_relaxed) == no_number)
-                        corner.store(in_use, std::memory_order_relaxed);
-                }
-            });
-        });
-    }
+    CornerTables tables(parts.sources.size());
+    const auto make = [&](std::size_t t) {
+        tables[t].assign(parts.sources[t].source()->mesh().points.size(), no_number);
+    };
+    const PartsOfRanges of_groups(
+        tables.size(), [&](std::size_t t) { return parts.sources[t].group_count(); }, threads,
+        least_group_count);
+    if (of_groups.count() != tables.size())
+        for (std::size_t t = 0; t < tables.size(); ++t) make(t);
+    of_groups.for_each([&](std::size_t, const PartsOfRanges::Part& p) {
+        if (tables[p.range].empty()) make(p.range);
+        const auto& mark = p.is_whole ? mark_corners : mark_corners_shared;
+        mark(parts.sources[p.range], p.begin, p.end, tables[p.range].data());
+    });
     return tables;
 }
 
@@ -110,7 +125,7 @@ public:
             number_and_cut();
         }
         resize_ready(mesh_.corners, 3 * parts_.stats.whole_facets + worked_.size());
-        for (std::size_t t = 0; t < tables_.size(); ++t) write_source(t);
+        write_sources();
         number_faces();
         return std::move(mesh_);
     }
@@ -176,37 +191,47 @@ private:
     // The corners of the result's facets, source by source, in the order of their vertices. Returns
     // the vertices that are none.
     PoolVector<PointId> number_corners(std::span<const BoundaryEdge> edges) {
-        PoolVector<PointId> made;
+        mark_points(edges);
         PoolVector<PointId> corners;
-        for (const BoundaryEdge& e : edges) {
-            if (std::exchange(number_[as_index(e.from)], in_use) != no_number) continue;
-            if (bench_.is_corner(e.from)) {
-                corner_of(e.from) = in_use;
-                corners.push_back(e.from);
-            } else {
-                made.push_back(e.from);
-            }
-        }
+        PoolVector<PointId> made;
+        list_points(corners, made);
         const std::vector<EqualCorners::Pair> equal = replaced_corners();
-        const auto used_in = [](std::span<const std::uint32_t> part) {
-            return part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
-        };
-        std::vector<PoolVector<std::size_t>> counts;  // of every part of a table
-        std::size_t count = made.size();
-        for (const auto& table : tables_) {
-            const ParallelParts parts(table.size(), threads_, least_points);
-            auto& of_parts = counts.emplace_back(parts.count());
-            parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-                of_parts[part] = used_in(std::span(table).subspan(begin, end - begin));
-            });
-            count = std::accumulate(of_parts.begin(), of_parts.end(), count);
-        }
-        reserve_ready(mesh_.points, count);
-        for (std::size_t t = 0; t < tables_.size(); ++t) number_table(t, counts[t]);
+        number_tables(made.size());
         for (const EqualCorners::Pair& e : equal)
             table_of_equal(e.mesh)[e.corner] = table_of_equal(0)[e.first];
         for (const PointId p : corners) number_[as_index(p)] = corner_of(p);
         return made;
+    }
+
+    // The points that edges have, and those of them that are corners.
+    void mark_points(std::span<const BoundaryEdge> edges) {
+        ParallelParts(edges.size(), threads_, least_points)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (const BoundaryEdge& e : edges.subspan(begin, end - begin))
+                    mark_shared(number_[as_index(e.from)]);
+            });
+    }
+    void list_points(PoolVector<PointId>& corners, PoolVector<PointId>& made) {
+        const ParallelParts parts(number_.size(), threads_, least_points);
+        std::vector<std::array<PoolVector<PointId>, 2>> lists(parts.count());
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (number_[i] == no_number) continue;
+                const auto p = static_cast<PointId>(i);
+                const bool is_corner = bench_.is_corner(p);
+                if (is_corner) mark_shared(corner_of(p));
+                lists[part][is_corner ? 0 : 1].push_back(p);
+            }
+        });
+        if (lists.size() == 1) {
+            corners.swap(lists[0][0]);
+            made.swap(lists[0][1]);
+            return;
+        }
+        for (const auto& [c, m] : lists) {
+            corners.insert(corners.end(), c.begin(), c.end());
+            made.insert(made.end(), m.begin(), m.end());
+        }
     }
 
     [[nodiscard]] PoolVector<std::uint32_t>& table_of_equal(std::size_t mesh) {
@@ -229,23 +254,36 @@ private:
         return out;
     }
 
-    // Numbers and coordinates for the corners in use; `counts` of them in each part.
-    void number_table(std::size_t t, std::span<const std::size_t> counts) {
-        const LatticePoint* const points = parts_.sources[t].source()->mesh().points.data();
-        PoolVector<std::uint32_t>& table = tables_[t];
-        PoolVector<std::size_t> first(counts.size());
-        std::exclusive_scan(counts.begin(), counts.end(), first.begin(), mesh_.points.size());
-        resize_ready(mesh_.points, first.back() + counts.back());
+    // Numbers and coordinates for the corners in use. There will be so many other vertices.
+    void number_tables(std::size_t others) {
+        const PartsOfRanges parts(
+            tables_.size(), [&](std::size_t t) { return tables_[t].size(); }, threads_,
+            least_points);
+        PoolVector<std::size_t> first(parts.count());
+        parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+            const auto part = std::span(tables_[p.range]).subspan(p.begin, p.end - p.begin);
+            first[number] =
+                part.size() - static_cast<std::size_t>(std::ranges::count(part, no_number));
+        });
+        const std::size_t count = std::accumulate(first.begin(), first.end(), std::size_t{0});
+        std::exclusive_scan(first.begin(), first.end(), first.begin(), std::size_t{0});
+        reserve_ready(mesh_.points, count + others);
+        resize_ready(mesh_.points, count);
+        parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+            number_part(p, first[number]);
+        });
+    }
+    void number_part(const PartsOfRanges::Part& part, std::size_t n) {
+        const LatticePoint* const points =
+            parts_.sources[part.range].source()->mesh().points.data();
+        PoolVector<std::uint32_t>& table = tables_[part.range];
         Point3d* const out = mesh_.points.data();
-        ParallelParts(table.size(), threads_, least_points)
-            .for_each([&, unit = unit_](std::size_t part, std::size_t begin, std::size_t end) {
-                std::size_t n = first[part];
-                for (std::size_t i = begin; i < end; ++i) {
-                    if (table[i] == no_number) continue;
-                    out[n] = coordinates_of(points[i], unit);
-                    table[i] = static_cast<std::uint32_t>(n++);
-                }
-            });
+        const double unit = unit_;
+        for (std::size_t i = part.begin; i < part.end; ++i) {
+            if (table[i] == no_number) continue;
+            out[n] = coordinates_of(points[i], unit);
+            table[i] = static_cast<std::uint32_t>(n++);
+        }
     }
 
     // The place in the table of its source of a point that is a corner.
@@ -277,14 +315,15 @@ private:
         const ParallelParts parts(edges.size(), threads_, least_cut_edges);
         std::vector<CutFacets> cut(parts.count());
         PerThread<FacetCutter> cutters;  // each has arrays as long as there are points
-        const auto facet_from = [&](std::size_t edge) {
+        const auto facet_from = [&](std::size_t part) {
+            const std::size_t edge = edges.size() * part / parts.count();
             return static_cast<std::size_t>(std::ranges::lower_bound(begins, edge) -
                                             begins.begin());
         };
         begins.push_back(edges.size());
-        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            const std::size_t first = facet_from(begin);
-            const std::size_t last = facet_from(end);
+        const auto cut_part = [&](std::size_t part) {
+            const std::size_t first = facet_from(part);
+            const std::size_t last = facet_from(part + 1);
             FacetCutter& cutter =
                 cutters.local([&] { return std::make_unique<FacetCutter>(parts_, vertices); });
             cut[part].corners.reserve(3 * (begins[last] - begins[first]));
@@ -293,8 +332,23 @@ private:
                 look_ahead_at_facet(edges, begins, i, last);
                 cutter.cut(edges.subspan(begins[i], begins[i + 1] - begins[i]), cut[part]);
             }
-        });
-        number_made(cut, made, rounded);
+        };
+        worked_.reserve(3 * edges.size());  // about as many triangles as edges
+        worked_facets_.reserve(begins.size());
+        PoolVector<std::uint32_t> at(made.size(), no_number);
+        const auto number_part = [&](std::size_t part) {
+            number_made(cut[part], made, rounded, at);
+            cut[part] = {};
+        };
+        // This thread gives numbers while others cut on.
+        if (parts.count() == 1) {
+            cut_part(0);
+            number_part(0);
+        } else {
+            for_each_in_order(parts.count(), threads_, cut_part, number_part);
+        }
+        worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
+        for (std::size_t i = 0; i < made.size(); ++i) number_[as_index(made[i])] = at[i];
     }
 
     // The names of supports, which lie anywhere in memory.
@@ -327,39 +381,26 @@ private:
         return out;
     }
 
-    // In the order in which triangles have them, which depends on the exact points alone. All are
-    // corners of triangles.
-    void number_made(std::span<const CutFacets> cut, std::span<const PointId> made,
-                     std::span<const Point3d> rounded) {
-        PoolVector<std::uint32_t> at(made.size(), no_number);
-        std::size_t corners = 0;
-        std::size_t facets = 1;
-        for (const CutFacets& part : cut) {
-            corners += part.corners.size();
-            facets += part.facets.size();
-        }
-        worked_.reserve(corners);
-        worked_facets_.reserve(facets);
-        for (const CutFacets& part : cut) {
-            for (const CutFacets::Facet& f : part.facets)
-                worked_facets_.push_back(
-                    {{f.source, place_of(f.facet, f.flipped)}, worked_.size() + f.begin});
-            for (const PointId p : part.corners) {
-                std::uint32_t number = number_[as_index(p)];
-                // Without a look at the point, which lies anywhere in memory.
-                if (number < made.size() && made[number] == p) {
-                    std::uint32_t& known = at[number];
-                    if (known == no_number) {
-                        known = static_cast<std::uint32_t>(mesh_.points.size());
-                        mesh_.points.push_back(rounded[number]);
-                    }
-                    number = known;
+    // In the order in which triangles have them, which depends on the exact points alone; the next
+    // part of them. All are corners of triangles. `at`: the numbers so far.
+    void number_made(const CutFacets& cut, std::span<const PointId> made,
+                     std::span<const Point3d> rounded, PoolVector<std::uint32_t>& at) {
+        for (const CutFacets::Facet& f : cut.facets)
+            worked_facets_.push_back(
+                {{f.source, place_of(f.facet, f.flipped)}, worked_.size() + f.begin});
+        for (const PointId p : cut.corners) {
+            std::uint32_t number = number_[as_index(p)];
+            // Without a look at the point, which lies anywhere in memory.
+            if (number < made.size() && made[number] == p) {
+                std::uint32_t& known = at[number];
+                if (known == no_number) {
+                    known = static_cast<std::uint32_t>(mesh_.points.size());
+                    mesh_.points.push_back(rounded[number]);
                 }
-                worked_.push_back(number);
+                number = known;
             }
+            worked_.push_back(number);
         }
-        worked_facets_.push_back({{tables_.size(), 0}, worked_.size()});  // ends the last one
-        for (std::size_t i = 0; i < made.size(); ++i) number_[as_index(made[i])] = at[i];
     }
 
     static Triangle numbered(const Triangle& corners, bool flipped, const std::uint32_t* numbers) {
@@ -375,19 +416,18 @@ private:
     }
 
     // Facets in their order, whether they pass through or were cut.
-    void write_source(std::size_t t) {
-        const FacetMarks& marks = parts_.sources[t];
-        const ParallelParts parts(marks.group_count(), threads_, least_group_count);
+    void write_sources() {
+        const PartsOfRanges parts(
+            tables_.size(), [&](std::size_t t) { return parts_.sources[t].group_count(); },
+            threads_, least_group_count);
         PoolVector<std::size_t> whole(parts.count());  // before each part
-        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            whole[part] = marks.counts(begin, end).whole;
+        parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+            whole[number] = parts_.sources[p.range].counts(p.begin, p.end).whole;
         });
-        const std::size_t count = std::accumulate(whole.begin(), whole.end(), std::size_t{0});
-        std::exclusive_scan(whole.begin(), whole.end(), whole.begin(), whole_written_);
-        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            write_part(t, begin, end, whole[part]);
+        std::exclusive_scan(whole.begin(), whole.end(), whole.begin(), std::size_t{0});
+        parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+            write_part(p.range, p.begin, p.end, whole[number]);
         });
-        whole_written_ += count;
     }
 
     // Groups [begin, end) of a source, before which so many facets that pass through are written.
@@ -444,7 +484,6 @@ private:
     PolygonMesh mesh_;
     PoolVector<Worked> worked_facets_;  // in their order; then one more where they end
     PoolVector<std::uint32_t> worked_;  // three corners a triangle
-    std::size_t whole_written_ = 0;
     PoolVector<std::uint32_t> number_;  // by PointId
 };
 
@@ -483,11 +522,11 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     BoundaryEdges edges = std::move(parts.edges);
     const auto join = [&] {
         if (parts.are_joined) return sort_by_facet(parts, edges);
-        join_facets(parts, edges);
+        join_facets(parts, edges, threads);
         remove_straight_vertices(parts, true, {}, edges, threads);
         // Facets that nothing changed are left alone, so that it does not show which of them the
         // tree has looked at.
-        mark_unchanged_facets(parts, edges);
+        mark_unchanged_facets(parts, edges, threads);
         parts.stats.joined_facets = join_coplanar_facets(parts, false, edges, threads);
         join_planes_across_axes(parts, edges);
         if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)

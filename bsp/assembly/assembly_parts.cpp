@@ -421,32 +421,34 @@ void Gatherer::number_facets() {
         return a.source()->serial() < b.source()->serial();
     });
     last_table_ = 0;
-    for (std::size_t t = 0; t < tables.size(); ++t) {
-        FacetMarks& marks = tables[t];
-        out_.table_ids.assign(BoundaryParts::key_of(marks.source()), static_cast<std::int32_t>(t));
-        constexpr std::size_t least_groups = 4096;
-        const ParallelParts parts(marks.group_count(), threads_, least_groups);
-        std::vector<FacetMarks::Counts> counts(parts.count());
-        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            counts[part] = marks.counts(begin, end);
-        });
-        PoolVector<std::size_t> first(parts.count());  // number of each part
-        std::size_t n = out_.facets.size();
-        for (std::size_t part = 0; part < parts.count(); ++part) {
-            out_.stats.whole_facets += counts[part].whole;
-            first[part] = n;
-            n += counts[part].worked;
-        }
-        out_.facets.resize(n);
-        marks.make_numbers();
-        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            marks.number_worked(begin, end, first[part]);
-            BoundaryFacet* out = out_.facets.data() + first[part];
-            marks.for_each_worked(begin, end, [&](std::uint32_t f, bool flipped) {
-                *out++ = {marks.source(), f, flipped};
-            });
-        });
+    for (std::size_t t = 0; t < tables.size(); ++t)
+        out_.table_ids.assign(BoundaryParts::key_of(tables[t].source()),
+                              static_cast<std::int32_t>(t));
+    constexpr std::size_t least_groups = 4096;
+    const PartsOfRanges parts(
+        tables.size(), [&](std::size_t t) { return tables[t].group_count(); }, threads_,
+        least_groups);
+    std::vector<FacetMarks::Counts> counts(parts.count());
+    parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+        counts[number] = tables[p.range].counts(p.begin, p.end);
+    });
+    PoolVector<std::size_t> first(parts.count());  // number of each part
+    std::size_t n = out_.facets.size();
+    for (std::size_t part = 0; part < parts.count(); ++part) {
+        out_.stats.whole_facets += counts[part].whole;
+        first[part] = n;
+        n += counts[part].worked;
     }
+    out_.facets.resize(n);
+    for (FacetMarks& marks : tables) marks.make_numbers();
+    parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+        FacetMarks& marks = tables[p.range];
+        marks.number_worked(p.begin, p.end, first[number]);
+        BoundaryFacet* out = out_.facets.data() + first[number];
+        marks.for_each_worked(p.begin, p.end, [&](std::uint32_t f, bool flipped) {
+            *out++ = {marks.source(), f, flipped};
+        });
+    });
 }
 
 // Whether something of the leaf bounds the result, is cut or touched, and has no edges yet.
@@ -669,9 +671,18 @@ bool Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
         out_.edges = std::move(edges_);
         return true;
     }
-    for (BoundaryEdge& e : edges_) {
-        e.from = same_[as_index(e.from)];
-        e.to = same_[as_index(e.to)];
+    constexpr std::size_t least_edges = 16384;
+    ParallelParts(edges_.size(), threads_, least_edges)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (BoundaryEdge& e : std::span(edges_).subspan(begin, end - begin)) {
+                e.from = same_[as_index(e.from)];
+                e.to = same_[as_index(e.to)];
+            }
+        });
+    if (traced == edges_.size() &&
+        std::ranges::none_of(out_.facets, [](const BoundaryFacet& f) { return f.is_special; })) {
+        out_.edges = std::move(edges_);
+        return true;
     }
     out_.edges.reserve(edges_.size() + edges_.size() / 8);
     if (!conform_traced(std::span(edges_).first(traced))) return false;

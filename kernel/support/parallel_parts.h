@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
@@ -93,5 +94,49 @@ private:
     const std::size_t slots = threads != 0 ? threads : threads_here();
     return {size, threads, std::max(least, (size + slots - 1) / slots)};
 }
+
+/// Parts of several ranges of numbers, one range after the other; each part is of one range. Long
+/// ranges have several parts, and a thread takes several short ranges at a time. `least` and
+/// `threads` as in ParallelParts.
+class PartsOfRanges {
+public:
+    struct Part {
+        std::size_t range = 0;
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        bool is_whole = true;  ///< all of its range
+    };
+
+    /// size_of(range) is the size of each of so many ranges.
+    template <class SizeOf>
+    PartsOfRanges(std::size_t ranges, const SizeOf& size_of, std::uint32_t threads,
+                  std::size_t least) {
+        std::size_t all = 0;
+        parts_.reserve(ranges);
+        for (std::size_t r = 0; r < ranges; ++r) {
+            const std::size_t size = size_of(r);
+            all += size;
+            const std::size_t count = ParallelParts(size, threads, least).count();
+            for (std::size_t k = 0; k < count; ++k)
+                parts_.push_back({r, size * k / count, size * (k + 1) / count, count == 1});
+        }
+        threads_ = all < 2 * least ? 1 : threads;
+    }
+
+    [[nodiscard]] std::size_t count() const { return parts_.size(); }
+
+    /// Calls work(number, part) for each part, as ParallelParts::for_each() does.
+    template <class Work>
+    void for_each(const Work& work) const {
+        ParallelParts(parts_.size(), threads_, 1)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) work(i, parts_[i]);
+            });
+    }
+
+private:
+    std::vector<Part> parts_;
+    std::uint32_t threads_ = 1;
+};
 
 }  // namespace trisect::detail

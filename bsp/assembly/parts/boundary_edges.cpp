@@ -141,8 +141,24 @@ void arrange_loops(std::span<BoundaryEdge> edges) {
 
 namespace {
 
+// Fewer edges are not worth a part.
+constexpr std::size_t least_edges = 8192;
+
+// Calls work(part, begin, end) for parts of the edges; those of a facet stay together.
+template <class Work>
+void for_each_part(std::span<const BoundaryEdge> edges, std::uint32_t threads, const Work& work) {
+    const auto at_facet = [&](std::size_t i) {
+        while (i != 0 && i < edges.size() && edges[i].facet == edges[i - 1].facet) ++i;
+        return i;
+    };
+    ParallelParts(edges.size(), threads, least_edges)
+        .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            work(part, at_facet(begin), at_facet(end));
+        });
+}
+
 // Whether an edge lies in a splitting plane.
-bool have_splitters(const BoundaryParts& parts, const BoundaryEdges& edges) {
+bool have_splitters(const BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
     bool out = false;
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -157,44 +173,128 @@ bool have_splitters(const BoundaryParts& parts, const BoundaryEdges& edges) {
     }
     return out;
 }
+bool have_splitters(const BoundaryParts& parts, std::span<const BoundaryEdge> edges,
+                    std::uint32_t threads) {
+    std::atomic<bool> out{false};
+    ParallelParts(edges.size(), threads, least_edges)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            if (have_splitters(parts, edges.subspan(begin, end - begin)))
+                out.store(true, std::memory_order_relaxed);
+        });
+    return out;
+}
+
+// Joins the parts of some facets.
+class FacetJoiner {
+public:
+    explicit FacetJoiner(const BoundaryParts& parts)
+        : parts_(parts), splitter_(parts.bench, parts.facets) {}
+
+    /// What is left of these edges, which are all those of some facets: in their own place, or in
+    /// `room`.
+    std::span<const BoundaryEdge> join(std::span<BoundaryEdge> edges, BoundaryEdges& room,
+                                       Cancelled* cancelled) {
+        bool in_place = true;
+        for (std::size_t i = 0; i < edges.size();) {
+            std::size_t j = i;
+            while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
+            check_stop(j - i);
+            const auto group = edges.subspan(i, j - i);
+            i = j;
+            if (in_place && parts_.facets[as_index(group[0].facet)].parts == 1) {
+                chains_.arrange(group);
+                continue;
+            }
+            if (std::exchange(in_place, false))
+                take_over(edges.first(i - group.size()), edges.size(), room);
+            const std::size_t first = room.size();
+            join_facet(group, room, cancelled);
+            chains_.arrange(std::span(room).subspan(first));
+        }
+        return in_place ? edges : std::span<const BoundaryEdge>(room);
+    }
+
+private:
+    static void take_over(std::span<const BoundaryEdge> before, std::size_t count,
+                          BoundaryEdges& room) {
+        room.reserve(count);
+        room.insert(room.end(), before.begin(), before.end());
+    }
+
+    void join_facet(std::span<BoundaryEdge> edges, BoundaryEdges& out, Cancelled* cancelled) {
+        const BoundaryFacet& f = parts_.facets[as_index(edges[0].facet)];
+        if (f.parts == 1) {  // nothing to join
+            out.insert(out.end(), edges.begin(), edges.end());
+            return;
+        }
+        const auto left = edges.first(cancel_opposites(edges, cancelled));
+        if (!f.in_several_cells) {
+            out.insert(out.end(), left.begin(), left.end());
+            return;
+        }
+        const std::size_t first = out.size();
+        splitter_.clear();
+        for (const BoundaryEdge& e : left) {
+            splitter_.add_candidate(e.from);
+            splitter_.add_candidate(e.to);
+        }
+        splitter_.split(left, out);
+        if (out.size() - first > left.size())
+            out.resize(first + cancel_opposites(std::span(out).subspan(first), cancelled));
+    }
+
+    const BoundaryParts& parts_;
+    EdgeSplitter splitter_;
+    EdgeChains chains_;
+};
+
+// One part after the other.
+BoundaryEdges concatenated(std::span<const std::span<const BoundaryEdge>> parts,
+                           std::uint32_t threads) {
+    std::vector<std::size_t> first(parts.size() + 1, 0);
+    for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + parts[i].size();
+    BoundaryEdges out(first.back());
+    ParallelParts(parts.size(), threads, 1)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                std::ranges::copy(parts[i], out.begin() + static_cast<std::ptrdiff_t>(first[i]));
+        });
+    return out;
+}
+
+// `cancelled`: of all facets, where it is wanted.
+void join_in_parts(const BoundaryParts& parts, BoundaryEdges& edges, Cancelled* cancelled,
+                   std::uint32_t threads) {
+    const std::size_t count = ParallelParts(edges.size(), threads, least_edges).count();
+    std::vector<BoundaryEdges> rooms(count);
+    std::vector<BoundaryEdges> gone(cancelled != nullptr ? count : 0);
+    std::vector<std::span<const BoundaryEdge>> left(count);
+    PerThread<FacetJoiner> joiners;
+    for_each_part(edges, threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        left[part] = joiners.local([&] { return std::make_unique<FacetJoiner>(parts); })
+                         .join(std::span(edges).subspan(begin, end - begin), rooms[part],
+                               cancelled != nullptr ? &gone[part] : nullptr);
+    });
+    for (const BoundaryEdges& g : gone) cancelled->insert(cancelled->end(), g.begin(), g.end());
+    const auto is_in_place = [&](const auto& part) {
+        return part.empty() ||
+               (part.data() >= edges.data() && part.data() < edges.data() + edges.size());
+    };
+    std::size_t size = 0;
+    for (const auto& part : left) size += part.size();
+    if (size == edges.size() && std::ranges::all_of(left, is_in_place)) return;
+    if (count == 1) return edges.swap(rooms[0]);
+    edges = concatenated(left, threads);
+}
 
 }  // namespace
 
-void join_facets(const BoundaryParts& parts, BoundaryEdges& edges) {
+void join_facets(const BoundaryParts& parts, BoundaryEdges& edges, std::uint32_t threads) {
     sort_by_facet(parts, edges);
-    BoundaryEdges out;
-    out.reserve(edges.size());
-    EdgeSplitter splitter(parts.bench, parts.facets);
-    BoundaryEdges all_cancelled;
-    EdgeChains chains;
-    Cancelled* const cancelled = parts.may_have_straight_crossings ? &all_cancelled : nullptr;
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t j = i;
-        while (j < edges.size() && edges[j].facet == edges[i].facet) ++j;
-        const std::span<BoundaryEdge> group = std::span(edges).subspan(i, j - i);
-        i = j;
-        check_stop(group.size());
-        const std::size_t first = out.size();
-        const bool conforms = !parts.facets[as_index(group[0].facet)].in_several_cells;
-        if (parts.facets[as_index(group[0].facet)].parts == 1) {  // nothing to join
-            out.insert(out.end(), group.begin(), group.end());
-        } else if (const auto left = group.first(cancel_opposites(group, cancelled)); conforms) {
-            out.insert(out.end(), left.begin(), left.end());
-        } else {
-            splitter.clear();
-            for (const BoundaryEdge& e : left) {
-                splitter.add_candidate(e.from);
-                splitter.add_candidate(e.to);
-            }
-            splitter.split(left, out);
-            if (out.size() - first > left.size())
-                out.resize(first + cancel_opposites(std::span(out).subspan(first), cancelled));
-        }
-        chains.arrange(std::span(out).subspan(first));
-    }
-    edges.swap(out);
-    if (have_splitters(parts, edges)) conform_splitters(parts, edges);
-    put_back_crossings(parts, all_cancelled, edges);
+    BoundaryEdges cancelled;
+    join_in_parts(parts, edges, parts.may_have_straight_crossings ? &cancelled : nullptr, threads);
+    if (have_splitters(parts, edges, threads)) conform_splitters(parts, edges);
+    put_back_crossings(parts, cancelled, edges);
     if (parts.crossings.empty()) return;
     edges.insert(edges.end(), parts.crossings.begin(), parts.crossings.end());
     sort_by_facet(parts, edges);
@@ -227,7 +327,9 @@ void conform_unmatched_edges(const BoundaryParts& parts, BoundaryEdges& edges) {
     arrange_loops(edges);
 }
 
-void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
+namespace {
+
+void mark_unchanged(BoundaryParts& parts, std::span<const BoundaryEdge> edges) {
     for (std::size_t i = 0; i < edges.size();) {
         BoundaryFacet& f = parts.facets[as_index(edges[i].facet)];
         std::size_t j = i;
@@ -245,23 +347,16 @@ void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> e
     }
 }
 
-namespace {
+}  // namespace
 
-// Fewer edges are not worth a part.
-constexpr std::size_t least_edges = 8192;
-
-// Calls work(begin, end) for parts of the edges; those of a facet stay together.
-template <class Work>
-void for_each_part(const BoundaryEdges& edges, std::uint32_t threads, const Work& work) {
-    const auto at_facet = [&](std::size_t i) {
-        while (i != 0 && i < edges.size() && edges[i].facet == edges[i - 1].facet) ++i;
-        return i;
-    };
-    ParallelParts(edges.size(), threads, least_edges)
-        .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            work(part, at_facet(begin), at_facet(end));
-        });
+void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges,
+                           std::uint32_t threads) {
+    for_each_part(edges, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+        mark_unchanged(parts, edges.subspan(begin, end - begin));
+    });
 }
+
+namespace {
 
 // Finds for every edge the one that runs the other way between the same ends, bounds the region on
 // its other side, and is joined with it.

@@ -3,6 +3,8 @@
 // Cancellation of edges inside a region, and removal of redundant vertices.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,8 +22,8 @@ void arrange_loops(std::span<BoundaryEdge> edges);
 /// unless facets of another plane go straight across there (crossing_faces.h).
 /// Where parts of neighbouring cells subdivide a common line differently, their ends are inserted
 /// first. The edges come out sorted by facet. \throw UnsupportedError when a part ends at the limit
-/// of space (an unbounded face).
-void join_facets(const BoundaryParts& parts, BoundaryEdges& edges);
+/// of space (an unbounded face). `threads` as in join_coplanar_facets.
+void join_facets(const BoundaryParts& parts, BoundaryEdges& edges, std::uint32_t threads = 1);
 
 /// Inserts vertices that lie inside edges into those that no other edge runs against: where two
 /// facets in one plane cross another one, that one has an edge along both. \pre sorted by facet; so
@@ -30,8 +32,9 @@ void conform_unmatched_edges(const BoundaryParts& parts, BoundaryEdges& edges);
 
 /// Marks the facets whose edges are those of their source's facet: touched in vain. Whether such a
 /// facet has edges at all depends on the tree. \pre edges sorted by facet, straight vertices
-/// removed.
-void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges);
+/// removed. `threads` as in ParallelParts.
+void mark_unchanged_facets(BoundaryParts& parts, std::span<const BoundaryEdge> edges,
+                           std::uint32_t threads = 1);
 
 /// Renumbers `facet` of every edge to the smallest facet of its face: facets in one oriented plane
 /// that share an edge are joined and the edge vanishes, unless facets of another plane go straight
