@@ -412,7 +412,7 @@ void Gatherer::mark_outlined(const UndividedMeshes& meshes) {
 void Gatherer::add_outlined_edges(const UndividedMeshes& meshes) {
     std::vector<const Source*> sources;
     for (const UncrossedFacets& list : meshes.uncrossed) sources.push_back(list.source);
-    add_outlined(*meshes.outlined, *meshes.crossings, sources, out_, edges_);
+    add_outlined(*meshes.outlined, *meshes.crossings, sources, out_, edges_, threads_);
 }
 
 void Gatherer::number_facets() {

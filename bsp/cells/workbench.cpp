@@ -114,23 +114,37 @@ void Workbench::declare_same(PlaneId a, PlaneId b) {
     planes_[as_index(std::max(ca, cb))].same = std::min(ca, cb);
 }
 
+Workbench::Room Workbench::make_room(std::size_t facets, std::size_t points) {
+    const Room out{static_cast<PlaneId>(planes_.size()), static_cast<PointId>(points_.size())};
+    planes_.resize(planes_.size() + 4 * facets);
+    points_.resize(points_.size() + points);
+    return out;
+}
+
+void Workbench::put_facet(PlaneId first, const Source* source, std::uint32_t facet) {
+    for (PlaneId k = 0; k < 3; ++k)
+        planes_[as_index(first + k)] = {PlaneName::edge(source, facet, k), first + k, first + 3};
+    planes_[as_index(first + 3)] = {PlaneName::support(source, facet), first + 3};
+}
+
+Workbench::PointRecord Workbench::corner_record(const Source* source, std::uint32_t vertex) const {
+    return {{-1, -1, -1}, vertex, source, approximate(source->mesh().points[vertex]), true};
+}
+
+void Workbench::put_corner(PointId id, const Source* source, std::uint32_t vertex) {
+    points_[as_index(id)] = corner_record(source, vertex);
+}
+
 PointId Workbench::corner(const Source* source, std::uint32_t facet, int i) {
     const Key128 key{reinterpret_cast<std::uintptr_t>(source), source->corner_index(facet, i)};
     const auto next = static_cast<PointId>(points_.size());
     const auto [id, inserted] = corner_ids_.insert(key, next);
-    if (inserted) {
-        points_.push_back({{-1, -1, -1},
-                           source->corner_index(facet, i),
-                           source,
-                           approximate(source->corner(facet, i)),
-                           true});
-    }
+    if (inserted) points_.push_back(corner_record(source, source->corner_index(facet, i)));
     return id;
 }
 
 PointId Workbench::add_corner(const Source* source, std::uint32_t vertex) {
-    points_.push_back(
-        {{-1, -1, -1}, vertex, source, approximate(source->mesh().points[vertex]), true});
+    points_.push_back(corner_record(source, vertex));
     return static_cast<PointId>(points_.size() - 1);
 }
 
@@ -248,10 +262,19 @@ PointId Workbench::point_named(const Key128& key, PlaneId p, PlaneId q, PlaneId 
     return id;
 }
 
-PointId Workbench::add_point(PlaneId p, PlaneId q, PlaneId r, const Approximation& known) {
+Workbench::PointRecord Workbench::point_record(PlaneId p, PlaneId q, PlaneId r,
+                                               const Approximation& known) const {
     const Approximation at =
         is_sharp(known) ? known : approximate(plane_at(p), plane_at(q), plane_at(r));
-    points_.push_back({{p, q, r}, 0, nullptr, at, is_lattice_point(at)});
+    return {{p, q, r}, 0, nullptr, at, is_lattice_point(at)};
+}
+
+void Workbench::put_point(PointId id, PlaneId p, PlaneId q, PlaneId r, const Approximation& known) {
+    points_[as_index(id)] = point_record(p, q, r, known);
+}
+
+PointId Workbench::add_point(PlaneId p, PlaneId q, PlaneId r, const Approximation& known) {
+    points_.push_back(point_record(p, q, r, known));
     return static_cast<PointId>(points_.size() - 1);
 }
 

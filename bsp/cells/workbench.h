@@ -82,12 +82,24 @@ public:
     /// A point that is new, and not found by name: a corner, or where three planes meet.
     PointId add_corner(const Source* source, std::uint32_t vertex);
     PointId add_point(PlaneId p, PlaneId q, PlaneId r, const Approximation& known);
+    /// Room for the planes of so many more facets, four each, and for so many more points. All are
+    /// to be put there before anything else is done; several threads may put different ones, if the
+    /// bench is shared.
+    struct Room {
+        PlaneId first_plane = 0;
+        PointId first_point = 0;
+    };
+    [[nodiscard]] Room make_room(std::size_t facets, std::size_t points);
+    void put_facet(PlaneId first, const Source* source, std::uint32_t facet);
+    void put_corner(PointId id, const Source* source, std::uint32_t vertex);
+    void put_point(PointId id, PlaneId p, PlaneId q, PlaneId r, const Approximation& known);
     /// The common point of three planes. Found by name when it was made before: from the same three
     /// planes, or as the point where the same edge of a source meets the same plane, an edge being
     /// named by its own plane or by both of its facets. Equal points
     /// may still have several names (see same_point). \pre the planes meet in one point.
     PointId meet(PlaneId p, PlaneId q, PlaneId r);
     [[nodiscard]] std::size_t point_count() const { return points_.size(); }
+    [[nodiscard]] std::size_t plane_count() const { return planes_.size(); }
     [[nodiscard]] bool is_corner(PointId id) const { return points_[as_index(id)].planes[0] < 0; }
     /// \pre is_corner(id)
     [[nodiscard]] std::pair<const Source*, std::uint32_t> corner_name(PointId id) const {
@@ -143,6 +155,8 @@ public:
     void end_points();
     /// Several threads may call what is const, until one thread alone calls something else.
     void share();
+    /// One thread alone has it again.
+    void end_sharing() { adding_ = nullptr; }
     /// Gives back the planes that were made so far; they are made again on demand. Ends references
     /// to them.
     void forget_made_planes();
@@ -246,6 +260,9 @@ private:
     };
 
     PlaneId add_plane(const PlaneName& name, PlaneId support = -1);
+    [[nodiscard]] PointRecord corner_record(const Source* source, std::uint32_t vertex) const;
+    [[nodiscard]] PointRecord point_record(PlaneId p, PlaneId q, PlaneId r,
+                                           const Approximation& known) const;
     const Plane& make_plane(PlaneId id) const;
     [[nodiscard]] bool is_made(PlaneId id) const {
         return std::atomic_ref(planes_[as_index(id)].place).load(std::memory_order_acquire) >= 0;
@@ -265,11 +282,11 @@ private:
                                      bool above) const;
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 
-    std::vector<PlaneRecord, PoolAllocator<PlaneRecord>> planes_;
+    std::vector<PlaneRecord, UnwrittenPoolAllocator<PlaneRecord>> planes_;
     mutable MadePlanes made_;
     std::unique_ptr<SpinLock> adding_;        // to these, where the bench is shared
     mutable std::vector<ExactPoint> recent_;  // by the last bits of the point
-    std::vector<PointRecord, PoolAllocator<PointRecord>> points_;
+    std::vector<PointRecord, UnwrittenPoolAllocator<PointRecord>> points_;
     FlatMap plane_ids_;
     FlatMap corner_ids_;
     FlatMap line_ids_;

@@ -50,6 +50,31 @@ private:
     [[nodiscard]] static constexpr bool is_pooled(std::size_t n) { return n >= least / sizeof(T); }
 };
 
+/// The same for values that are written before they are read: resize() leaves them as the memory
+/// is, so several threads may write them afterwards, each on pages that it is the first to touch.
+template <class T>
+class UnwrittenPoolAllocator : public PoolAllocator<T> {
+    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+public:
+    UnwrittenPoolAllocator() = default;
+    template <class U>
+    UnwrittenPoolAllocator(const UnwrittenPoolAllocator<U>&) noexcept {
+    }  // NOLINT(google-explicit-constructor)
+    template <class U>
+    struct rebind {
+        using other = UnwrittenPoolAllocator<U>;
+    };
+
+    template <class U>
+    void construct(U* /*place*/) noexcept {}
+    template <class U, class First, class... Rest>
+    void construct(U* place, First&& first, Rest&&... rest) {
+        ::new (static_cast<void*>(place))
+            U(std::forward<First>(first), std::forward<Rest>(rest)...);
+    }
+};
+
 /// A vector that may become large and does not live long.
 template <class T>
 using PoolVector = std::vector<T, PoolAllocator<T>>;

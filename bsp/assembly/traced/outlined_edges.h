@@ -3,6 +3,7 @@
 // Edges of a result with outlined facets.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,9 +14,9 @@
 namespace trisect::detail {
 
 /// Appends the edges of the facets and marks those as traced. `sources` are by operand. \pre the
-/// facets are present and worked on in the marks, and numbered
+/// facets are present and worked on in the marks, and numbered. `threads` as in ParallelParts
 void add_outlined(const OutlinedFacets& outlined, const Crossings& operands,
                   std::span<const Source* const> sources, BoundaryParts& parts,
-                  BoundaryEdges& edges);
+                  BoundaryEdges& edges, std::uint32_t threads);
 
 }  // namespace trisect::detail
