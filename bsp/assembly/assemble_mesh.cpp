@@ -528,7 +528,7 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         // tree has looked at.
         mark_unchanged_facets(parts, edges, threads);
         parts.stats.joined_facets = join_coplanar_facets(parts, false, edges, threads);
-        join_planes_across_axes(parts, edges);
+        join_planes_across_axes(parts, edges, threads);
         if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
             remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges, threads);
     };

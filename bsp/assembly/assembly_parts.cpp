@@ -223,7 +223,8 @@ bool Gatherer::finish() {
     const std::size_t of_leaves = edges_.size();
     make_axis_faces();
     if (!may_have_sheets_) out_.bench.end_points();
-    same_ = axis_faces_->takes_all() ? points_as_named(out_) : representatives(out_, first_serial_);
+    same_ = axis_faces_->takes_all() ? points_as_named(out_)
+                                     : representatives(out_, first_serial_, threads_);
     check_stop(edges_.size());
     if (!conform_edges(traced, of_leaves)) return false;
     if (may_have_sheets_) out_.bench.end_points();

@@ -21,7 +21,7 @@ class EqualPoints {
 public:
     EqualPoints(BoundaryParts& parts, std::uint64_t serial) : parts_(parts), serial_(serial) {}
 
-    [[nodiscard]] PoolVector<PointId> find() {
+    [[nodiscard]] PoolVector<PointId> find(std::uint32_t threads) {
         // Few groups need the same planes as others.
         constexpr std::size_t many_planes = 8192;
         Workbench& bench = parts_.bench;
@@ -34,7 +34,7 @@ public:
             return rank(a) != rank(b) ? rank(a) > rank(b) : a < b;
         };
         PoolVector<PointId> values;
-        for_each_near_group(bench, [&](std::span<const PointId> group) {
+        const auto compare = [&](std::span<const PointId> group) {
             // Against one of each value: what is equal to it needs no comparison of its own.
             values.clear();
             through_.clear();
@@ -52,7 +52,8 @@ public:
                 if (better(p, kept))
                     same_[as_index(kept)] = same_[as_index(*value)] = same_[as_index(p)] = p;
             }
-        });
+        };
+        for_each_near_group(bench, compare, threads);
         for (PointId& p : same_)
             while (same_[as_index(p)] != p) p = same_[as_index(p)];
         return std::move(same_);
@@ -93,8 +94,9 @@ private:
 
 }  // namespace
 
-PoolVector<PointId> representatives(BoundaryParts& parts, std::uint64_t serial) {
-    return EqualPoints(parts, serial).find();
+PoolVector<PointId> representatives(BoundaryParts& parts, std::uint64_t serial,
+                                    std::uint32_t threads) {
+    return EqualPoints(parts, serial).find(threads);
 }
 
 PoolVector<PointId> points_as_named(const BoundaryParts& parts) {

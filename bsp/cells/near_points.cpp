@@ -24,6 +24,7 @@
 
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
 
@@ -41,12 +42,18 @@ double reach(const Approximation& a, std::size_t axis) {
 // costs time only.
 class Neighbours {
 public:
-    explicit Neighbours(const Workbench& bench)
-        : bench_(bench), per_unit_(1 / size_of_cell(bench)), root_(bench.point_count()) {
-        entries_.reserve(bench.point_count() + bench.point_count() / 4);
-        for (std::size_t p = 0; p < bench.point_count(); ++p) add(static_cast<PointId>(p));
-        std::iota(root_.begin(), root_.end(), PointId{0});
-        connect();
+    Neighbours(const Workbench& bench, std::uint32_t threads)
+        : bench_(bench), per_unit_(1 / size_of_cell(bench, threads)), root_(bench.point_count()) {
+        const ParallelParts parts(bench.point_count(), threads, least_points);
+        std::vector<PoolVector<Entry>> entries(parts.count());
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            entries[part].reserve(end - begin + (end - begin) / 4);
+            for (std::size_t p = begin; p < end; ++p) {
+                add(static_cast<PointId>(p), entries[part]);
+                root_[p] = static_cast<PointId>(p);
+            }
+        });
+        connect(entries, threads);
     }
 
     /// The groups of two and more, one after the other, each in the order of ids.
@@ -78,12 +85,20 @@ private:
         PointId point = -1;
     };
 
-    static double size_of_cell(const Workbench& bench) {
-        double widest = 0;
-        for (std::size_t p = 0; p < bench.point_count(); ++p) {
-            const Approximation& a = bench.approximation(static_cast<PointId>(p));
-            for (std::size_t k = 0; k < 3; ++k) widest = std::max(widest, reach(a, k));
-        }
+    static constexpr std::size_t least_points = 8192;  // fewer are not worth a part
+
+    static double size_of_cell(const Workbench& bench, std::uint32_t threads) {
+        const ParallelParts parts(bench.point_count(), threads, least_points);
+        std::vector<double> of_parts(parts.count());
+        parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+            double widest = 0;
+            for (std::size_t p = begin; p < end; ++p) {
+                const Approximation& a = bench.approximation(static_cast<PointId>(p));
+                for (std::size_t k = 0; k < 3; ++k) widest = std::max(widest, reach(a, k));
+            }
+            of_parts[part] = widest;
+        });
+        const double widest = std::ranges::max(of_parts);
         return widest > 0 ? 64 * widest : 1;
     }
 
@@ -93,7 +108,7 @@ private:
         return static_cast<std::int64_t>(c * per_unit_);
     }
 
-    void add(PointId p) {
+    void add(PointId p, PoolVector<Entry>& entries) const {
         const Approximation& a = bench_.approximation(p);
         std::array<std::int64_t, 3> lo{};
         std::array<std::int64_t, 3> hi{};
@@ -103,8 +118,7 @@ private:
         }
         for (std::int64_t x = lo[0]; x <= hi[0]; ++x)
             for (std::int64_t y = lo[1]; y <= hi[1]; ++y)
-                for (std::int64_t z = lo[2]; z <= hi[2]; ++z)
-                    entries_.push_back({hash(x, y, z), p});
+                for (std::int64_t z = lo[2]; z <= hi[2]; ++z) entries.push_back({hash(x, y, z), p});
     }
 
     static std::uint64_t hash(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -113,27 +127,61 @@ private:
                      odd * (static_cast<std::uint64_t>(y) + odd * static_cast<std::uint64_t>(z)));
     }
 
-    // The table holds numbers of entries, one for each cell.
-    void connect() {
-        PoolVector<std::uint32_t> table(std::bit_ceil(2 * entries_.size() + 1), none);
-        for (std::uint32_t e = 0; e < entries_.size(); ++e) {
-            std::size_t i = entries_[e].cell & (table.size() - 1);
-            while (table[i] != none && entries_[table[i]].cell != entries_[e].cell)
-                i = (i + 1) & (table.size() - 1);
-            if (table[i] == none) {
-                table[i] = e;
-            } else {
-                const PointId a = root(entries_[table[i]].point);
-                const PointId b = root(entries_[e].point);
+    // Which points have a cell in common is found by several threads, each of which has a table of
+    // some of the cells. The smallest point of a group is the same in whatever order they come.
+    void connect(std::span<const PoolVector<Entry>> entries, std::uint32_t threads) {
+        std::size_t all = 0;
+        for (const auto& part : entries) all += part.size();
+        const std::size_t count =
+            entries.size() == 1 ? 1 : parts_by_thread(all, threads, least_points).count();
+        std::vector<PoolVector<std::pair<PointId, PointId>>> pairs(count);
+        ParallelParts(count, count == 1 ? 1 : threads, 1)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t t = begin; t < end; ++t)
+                    find_pairs(entries, {t, count}, all, pairs[t]);
+            });
+        for (const auto& list : pairs)
+            for (const auto& [p, q] : list) {
+                const PointId a = root(p);
+                const PointId b = root(q);
                 root_[as_index(std::max(a, b))] = std::min(a, b);
             }
-        }
     }
 
-    static constexpr std::uint32_t none = ~std::uint32_t{0};
+    // One of so many tables.
+    struct Table {
+        std::size_t number = 0;
+        std::size_t count = 1;
+        [[nodiscard]] bool has(std::uint64_t cell) const {
+            return count == 1 || (cell >> 32U) % count == number;
+        }
+    };
+    // A table holds entries, one for each cell.
+    static void find_pairs(std::span<const PoolVector<Entry>> entries, const Table& of,
+                           std::size_t all, PoolVector<std::pair<PointId, PointId>>& pairs) {
+        std::size_t own = all;
+        if (of.count != 1) {
+            own = 0;
+            for (const auto& part : entries)
+                for (const Entry& e : part) own += of.has(e.cell) ? 1 : 0;
+        }
+        PoolVector<const Entry*> table(std::bit_ceil(2 * own + 1), nullptr);
+        const std::size_t mask = table.size() - 1;
+        for (const auto& part : entries)
+            for (const Entry& e : part) {
+                if (!of.has(e.cell)) continue;
+                std::size_t i = e.cell & mask;
+                while (table[i] != nullptr && table[i]->cell != e.cell) i = (i + 1) & mask;
+                if (table[i] == nullptr) {
+                    table[i] = &e;
+                } else {
+                    pairs.emplace_back(table[i]->point, e.point);
+                }
+            }
+    }
+
     const Workbench& bench_;
     double per_unit_;
-    PoolVector<Entry> entries_;
     PoolVector<PointId> root_;
 };
 
@@ -205,8 +253,9 @@ void Groups::emit(std::span<const PointRange> group) {
 }  // namespace
 
 void for_each_near_group(const Workbench& bench,
-                         const std::function<void(std::span<const PointId>)>& visit) {
-    Neighbours neighbours(bench);
+                         const std::function<void(std::span<const PointId>)>& visit,
+                         std::uint32_t threads) {
+    Neighbours neighbours(bench, threads);
     Groups groups(bench, visit);
     const PoolVector<PointId> points = neighbours.grouped();
     for (std::size_t i = 0; i < points.size();) {

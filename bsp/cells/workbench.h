@@ -205,6 +205,9 @@ private:
         std::int32_t line = -1;
         mutable std::int32_t place = -1;  // among the planes that were made
     };
+    // What one thread writes and what others read at the same time are in different lines of the
+    // cache: these go to and fro between processors, and take longer than what is done with them.
+    static constexpr std::size_t line_bytes = 64;
     /// Planes that stay where they are while others are made. Most benches make few: the first
     /// block is small.
     class MadePlanes {
@@ -248,9 +251,9 @@ private:
             block.reserve(size);
             block.push_back(plane);
         }
-        PoolVector<Plane> few_;
+        alignas(line_bytes) PoolVector<Plane> few_;
         std::vector<PoolVector<Plane>> blocks_;
-        std::int32_t count_ = 0;
+        alignas(line_bytes) std::int32_t count_ = 0;
     };
 
     // Exact coordinates of a point that planes name.
@@ -282,15 +285,15 @@ private:
                                      bool above) const;
     [[nodiscard]] WorkPolygon unbounded_in(PlaneId support, const Cell& cell);
 
-    std::vector<PlaneRecord, UnwrittenPoolAllocator<PlaneRecord>> planes_;
-    mutable MadePlanes made_;
-    std::unique_ptr<SpinLock> adding_;        // to these, where the bench is shared
-    mutable std::vector<ExactPoint> recent_;  // by the last bits of the point
-    std::vector<PointRecord, UnwrittenPoolAllocator<PointRecord>> points_;
+    alignas(line_bytes) std::vector<PlaneRecord, UnwrittenPoolAllocator<PlaneRecord>> planes_;
+    std::unique_ptr<SpinLock> adding_;  // to made_, where the bench is shared
     FlatMap plane_ids_;
+    mutable MadePlanes made_;
+    alignas(line_bytes) std::vector<PointRecord, UnwrittenPoolAllocator<PointRecord>> points_;
     FlatMap corner_ids_;
     FlatMap line_ids_;
     FlatMap point_ids_;
+    mutable std::vector<ExactPoint> recent_;  // by the last bits of the point
     bool names_points_ = true;
     Sides sides_;
 };

@@ -639,22 +639,48 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
     return joined;
 }
 
-void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges) {
+namespace {
+
+// An edge that is the first one of a facet in a plane across an axis, which may be joined to
+// others.
+struct AxisFacetStart {
+    std::size_t edge = 0;
+    Key128 plane;  // with the side that it faces
+};
+
+void list_axis_facets(const BoundaryParts& parts, const BoundaryEdges& edges, std::size_t begin,
+                      std::size_t end, PoolVector<AxisFacetStart>& out) {
+    for (std::size_t i = begin; i < end; ++i) {
+        if (i != begin && edges[i].facet == edges[i - 1].facet) continue;
+        const BoundaryFacet& f = parts.facets[as_index(edges[i].facet)];
+        if (f.unchanged) continue;
+        const auto plane = axis_support(*f.source, f.facet);
+        if (!plane) continue;
+        const bool faces_up = (plane->sign > 0) != f.flipped;
+        out.push_back({i, {2 * plane->axis + (faces_up ? 1 : 0), plane->at.bits()}});
+    }
+}
+
+}  // namespace
+
+void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges,
+                             std::uint32_t threads) {
+    std::vector<PoolVector<AxisFacetStart>> starts(
+        ParallelParts(edges.size(), threads, least_edges).count());
+    for_each_part(edges, threads, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        list_axis_facets(parts, edges, begin, end, starts[part]);
+    });
     FlatMap first_of_plane;
     bool joined = false;
-    for (std::size_t i = 0; i < edges.size();) {
-        const std::int32_t number = edges[i].facet;
-        const BoundaryFacet& f = parts.facets[as_index(number)];
-        const auto plane = axis_support(*f.source, f.facet);
-        std::int32_t first = number;
-        if (plane && !f.unchanged) {
-            const bool faces_up = (plane->sign > 0) != f.flipped;
-            const Key128 key{2 * plane->axis + (faces_up ? 1 : 0), plane->at.bits()};
-            first = first_of_plane.insert(key, number).first;
+    for (const auto& of_part : starts)
+        for (const AxisFacetStart& start : of_part) {
+            const std::int32_t number = edges[start.edge].facet;
+            const std::int32_t first = first_of_plane.insert(start.plane, number).first;
+            if (first == number) continue;
+            joined = true;
+            for (std::size_t i = start.edge; i < edges.size() && edges[i].facet == number; ++i)
+                edges[i].facet = first;
         }
-        joined = joined || first != number;
-        for (; i < edges.size() && edges[i].facet == number; ++i) edges[i].facet = first;
-    }
     if (!joined) return;
     sort_by_facet(parts, edges);
     arrange_loops(edges);

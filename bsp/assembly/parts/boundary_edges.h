@@ -47,8 +47,10 @@ std::size_t join_coplanar_facets(const BoundaryParts& parts, bool within_faces,
 
 /// Renumbers `facet` of the edges in axis-perpendicular planes to the first facet of their plane
 /// and facing, so that a plane is one region whichever way its outline was found (axis_faces.h).
-/// Facets marked as unchanged stay. \pre sorted by facet; so they come out.
-void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges);
+/// Facets marked as unchanged stay. \pre sorted by facet; so they come out. `threads` as in
+/// ParallelParts.
+void join_planes_across_axes(const BoundaryParts& parts, BoundaryEdges& edges,
+                             std::uint32_t threads = 1);
 
 /// Removes every vertex at which all regions that have it run straight on. With `keep_corners`
 /// corners of the operands stay, and in any case the points of `keep` do. \pre edges sorted by
