@@ -487,23 +487,17 @@ private:
     PoolVector<std::uint32_t> number_;  // by PointId
 };
 
-// The corners of facets that pass through: vertices, whatever the others do there.
-PoolVector<PointId> corners_of_whole_facets(const BoundaryParts& parts) {
-    std::vector<std::vector<bool>> used;
-    for (const FacetMarks& marks : parts.sources) {
-        const LatticeMesh& mesh = marks.source()->mesh();
-        auto& is_used = used.emplace_back(mesh.points.size(), false);
-        marks.for_each_whole([&](std::uint32_t facet, bool) {
-            for (const std::uint32_t v : mesh.triangles[facet]) is_used[v] = true;
-        });
-    }
+// The corners of facets that pass through: vertices, whatever the others do there. `tables` as
+// corners_in_use() makes them.
+PoolVector<PointId> corners_of_whole_facets(const BoundaryParts& parts,
+                                            const CornerTables& tables) {
     PoolVector<PointId> out;
     for (std::size_t p = 0; p < parts.bench.point_count(); ++p) {
         if (!parts.bench.is_corner(static_cast<PointId>(p))) continue;
         const auto [source, v] = parts.bench.corner_name(static_cast<PointId>(p));
         // No table: a corner of a facet that only named the point.
         const std::int32_t t = parts.table_ids.find(BoundaryParts::key_of(source));
-        if (t >= 0 && used[as_index(t)][v]) out.push_back(parts.representatives[p]);
+        if (t >= 0 && tables[as_index(t)][v] == in_use) out.push_back(parts.representatives[p]);
     }
     return out;
 }
@@ -529,8 +523,6 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         mark_unchanged_facets(parts, edges, threads);
         parts.stats.joined_facets = join_coplanar_facets(parts, false, edges, threads);
         join_planes_across_axes(parts, edges, threads);
-        if (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0)
-            remove_straight_vertices(parts, false, corners_of_whole_facets(parts), edges, threads);
     };
     // What was cut and what passes through have nothing to do with each other yet.
     CornerTables tables;
@@ -543,6 +535,9 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
         join();
         find_corners(large ? threads : 1);
     }
+    if (!parts.are_joined && (parts.stats.joined_facets != 0 || parts.stats.axis_facets != 0))
+        remove_straight_vertices(parts, false, corners_of_whole_facets(parts, tables), edges,
+                                 threads);
     if (stats != nullptr) *stats = parts.stats;
     MeshWriter writer(solid, parts, std::move(tables), threads);
     PolygonMesh mesh = writer.write(edges);

@@ -42,6 +42,7 @@
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/per_thread.h>
 #include <trisect/kernel/support/pool_allocator.h>
 #include <trisect/kernel/support/task_group.h>
 
@@ -115,6 +116,8 @@ private:
     void make_axis_faces();
     [[nodiscard]] bool conform_edges(std::size_t traced, std::size_t of_leaves);
     [[nodiscard]] bool conform_traced(std::span<BoundaryEdge> edges);
+    void conform_leaves();
+    void conform_leaf(const AssembledLeaf& leaf, EdgeSplitter& splitter, BoundaryEdges& out) const;
     [[nodiscard]] std::size_t table(const Source* source);
     void mark_incomplete(FacetMarks& marks) const;
 
@@ -689,21 +692,47 @@ bool Gatherer::conform_edges(std::size_t traced, std::size_t of_leaves) {
     if (!conform_traced(std::span(edges_).first(traced))) return false;
     out_.edges.insert(out_.edges.end(), edges_.begin() + static_cast<std::ptrdiff_t>(of_leaves),
                       edges_.end());
-    for (const AssembledLeaf& leaf : leaves_) {
-        check_stop();
-        const auto edges =
-            std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
-        if (!leaf.node->is_mixed()) {
-            out_.edges.insert(out_.edges.end(), edges.begin(), edges.end());
-            continue;
-        }
-        splitter_.clear();
-        for (const BoundaryEdge& e : edges) splitter_.add_candidate(e.from);
-        for (std::size_t i = leaf.first_inside; i < leaf.end_inside; ++i)
-            splitter_.add_candidate(same_[as_index(inside_[i])]);
-        splitter_.split(edges, out_.edges);
-    }
+    conform_leaves();
     return true;
+}
+
+// By several threads where there are many edges: leaves have nothing in common.
+void Gatherer::conform_leaves() {
+    constexpr std::size_t least_edges = 4096;
+    constexpr std::size_t least_leaves = 8;
+    const bool are_few = edges_.size() < least_edges;
+    const ParallelParts parts(leaves_.size(), are_few ? 1 : threads_, least_leaves);
+    if (parts.count() == 1) {
+        for (const AssembledLeaf& leaf : leaves_) conform_leaf(leaf, splitter_, out_.edges);
+        return;
+    }
+    out_.bench.share();
+    std::vector<BoundaryEdges> conforming(parts.count());
+    PerThread<EdgeSplitter> splitters;
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        EdgeSplitter& splitter = splitters.local(
+            [&] { return std::make_unique<EdgeSplitter>(out_.bench, out_.facets); });
+        for (std::size_t i = begin; i < end; ++i)
+            conform_leaf(leaves_[i], splitter, conforming[part]);
+    });
+    out_.bench.end_sharing();
+    for (const BoundaryEdges& of_part : conforming)
+        out_.edges.insert(out_.edges.end(), of_part.begin(), of_part.end());
+}
+
+void Gatherer::conform_leaf(const AssembledLeaf& leaf, EdgeSplitter& splitter,
+                            BoundaryEdges& out) const {
+    check_stop();
+    const auto edges = std::span(edges_).subspan(leaf.first_edge, leaf.end_edge - leaf.first_edge);
+    if (!leaf.node->is_mixed()) {
+        out.insert(out.end(), edges.begin(), edges.end());
+        return;
+    }
+    splitter.clear();
+    for (const BoundaryEdge& e : edges) splitter.add_candidate(e.from);
+    for (std::size_t i = leaf.first_inside; i < leaf.end_inside; ++i)
+        splitter.add_candidate(same_[as_index(inside_[i])]);
+    splitter.split(edges, out);
 }
 
 }  // namespace

@@ -10,8 +10,10 @@
 #include <trisect/bsp/assembly/axis/axis_face_outlines.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -326,8 +328,8 @@ Approximation AxisFaceOutlines<Number>::place_at(const Ranks& ranks) const {
     return at;
 }
 
-// Points and planes are named by one thread, in the order of the edges, which several threads
-// write.
+// Planes are named by one thread, and so are points where others have some already. Several threads
+// write the edges.
 template <class Number>
 void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
     if (taken_count_ == 0) return;
@@ -343,12 +345,15 @@ void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
     const std::vector<Face> faces = faces_in_order();
     PoolVector<std::size_t> first;  // edge of each face
     std::size_t count = edges.size();
+    const bool by_many = !names_points_ && threads_ != 1 && stops_.size() >= 2 * least_stops;
     for (const Face& face : faces) {
         check_stop(face.intervals.size());
-        name_points(face);
+        name_planes(face);
+        if (!by_many) name_points(face);
         first.push_back(count);
         count += count_edges(face);
     }
+    if (by_many) name_on_threads(faces);
     edges.resize(count);
     ParallelParts(faces.size(), threads_, least_planes)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
@@ -360,7 +365,6 @@ void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
 // A vertex is a stop on up to three lines; the one along the first axis stands for it.
 template <class Number>
 void AxisFaceOutlines<Number>::unite_stops() {
-    constexpr std::size_t least_lines = 256;
     ParallelParts(all_lines_.size(), threads_, least_lines)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             for (const StopLine& line : std::span(all_lines_).subspan(begin, end - begin)) {
@@ -427,7 +431,7 @@ void AxisFaceOutlines<Number>::for_each_stop(const Interval& interval, const Sto
 }
 
 template <class Number>
-void AxisFaceOutlines<Number>::name_points(const Face& face) {
+void AxisFaceOutlines<Number>::name_planes(const Face& face) {
     const FacePlane& face_plane = face_planes_[face.face_plane];
     BoundaryFacet& f = parts_.facets[as_index(face.first)];
     f.support = parts_.bench.plane(PlaneName::support(f.source, f.facet));
@@ -435,17 +439,90 @@ void AxisFaceOutlines<Number>::name_points(const Face& face) {
     for (const std::uint32_t n : face.intervals) {
         const Interval& s = face_plane.outline.intervals()[n];
         const std::size_t across = across_of(face_plane, s);
+        (void)plane_of(across, line_of(face_plane, s)[across]);
+    }
+}
+
+// Calls visit(stop, ranks) for all vertices of all edges.
+template <class Number>
+template <class Visit>
+void AxisFaceOutlines<Number>::for_each_vertex(const Face& face, const Visit& visit) const {
+    const FacePlane& face_plane = face_planes_[face.face_plane];
+    for (const std::uint32_t n : face.intervals) {
+        const Interval& s = face_plane.outline.intervals()[n];
         const std::size_t along = along_of(face_plane, s);
         Ranks at = line_of(face_plane, s);
-        (void)plane_of(across, at[across]);
         for_each_stop(s, face_plane.stops[n], [&](std::uint32_t i) {
-            const Stop& stop = stops_[i];
-            PointId& point = stops_[stop.same].point;
-            if (point >= 0) return;
-            at[along] = stop.place;
-            point = new_point(at);
+            at[along] = stops_[i].place;
+            visit(stops_[i], at);
         });
     }
+}
+
+template <class Number>
+void AxisFaceOutlines<Number>::name_points(const Face& face) {
+    for_each_vertex(face, [&](const Stop& stop, const Ranks& at) {
+        PointId& point = stops_[stop.same].point;
+        if (point == Stop::none) point = new_point(at);
+    });
+}
+
+// Where nothing else has points: they come in the order of the stops.
+template <class Number>
+void AxisFaceOutlines<Number>::name_on_threads(std::span<const Face> faces) {
+    for (FacePlane& s : face_planes_)
+        if (s.id < 0) s.id = parts_.bench.plane(s.name);
+    ParallelParts(faces.size(), threads_, 1)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (const Face& face : faces.subspan(begin, end - begin))
+                for_each_vertex(face, [&](const Stop& stop, const Ranks&) {
+                    const std::atomic_ref point(stops_[stop.same].point);
+                    if (point.load(std::memory_order_relaxed) == Stop::none)
+                        point.store(Stop::wanted, std::memory_order_relaxed);
+                });
+        });
+    const ParallelParts parts(all_lines_.size(), threads_, least_lines);
+    PoolVector<PointId> before(parts.count() + 1, 0);
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        PointId count = 0;
+        for (const StopLine& line : std::span(all_lines_).subspan(begin, end - begin))
+            for (std::uint32_t i = line.stops.first; i < line.stops.end; ++i)
+                count += stops_[i].point == Stop::wanted ? 1 : 0;
+        before[part + 1] = count;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    const PointId first = parts_.bench.make_room(0, as_index(before.back())).first_point;
+    parts_.bench.share();
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        PointId next = first + before[part];
+        for (const StopLine& line : std::span(all_lines_).subspan(begin, end - begin))
+            next = put_points(line, next);
+    });
+    parts_.bench.end_sharing();
+}
+
+// Those of a line that are wanted. Returns the number after theirs.
+template <class Number>
+PointId AxisFaceOutlines<Number>::put_points(const StopLine& line, PointId next) {
+    Ranks at = line.at;
+    for (std::uint32_t i = line.stops.first; i < line.stops.end; ++i) {
+        if (stops_[i].point != Stop::wanted) continue;
+        stops_[i].point = next;
+        at[line.along] = stops_[i].place;
+        put_point(next++, at);
+    }
+    return next;
+}
+
+template <class Number>
+void AxisFaceOutlines<Number>::put_point(PointId id, const Ranks& ranks) {
+    if (const std::int32_t c = corner_ids_.find(key_of(ranks)); c >= 0) {
+        const CornerName& name = corners_[as_index(c)];
+        return parts_.bench.put_corner(id, name.source,
+                                       name.source->corner_index(name.facet, name.corner));
+    }
+    const auto plane = [&](std::size_t k) { return face_plane_at_rank(k, ranks[k]).id; };
+    parts_.bench.put_point(id, plane(0), plane(1), plane(2), place_at(ranks));
 }
 
 // \pre named; count_edges() of them

@@ -38,14 +38,19 @@ private:
     using Outline = AxisOutline<Number>;
     using Interval = AxisInterval<Number>;
     using Side = AxisSide<Number>;
-    static constexpr std::size_t least_planes = 8;  // fewer are not worth a part
+    // Fewer are not worth a part.
+    static constexpr std::size_t least_planes = 8;
+    static constexpr std::size_t least_lines = 256;
+    static constexpr std::size_t least_stops = 8192;
     // Places by their ranks among the coordinates of each axis.
     using Ranks = std::array<std::uint32_t, 3>;
     // A vertex on a line.
     struct Stop {
+        static constexpr PointId none = -1;
+        static constexpr PointId wanted = -2;
         std::uint32_t place = 0;  // its rank along the line
         std::uint32_t same = 0;   // the stop that stands for all of this vertex
-        PointId point = -1;       // of that one, once it was requested
+        PointId point = none;     // of that one, once it was requested
     };
     // The stops of one line, or of an interval with its ends.
     struct Stops {
@@ -179,6 +184,12 @@ private:
     [[nodiscard]] std::uint32_t first_stop_at(const Ranks& at, std::size_t axes,
                                               std::uint32_t own) const;
     void name_points(const Face& face);
+    void name_planes(const Face& face);
+    void name_on_threads(std::span<const Face> faces);
+    [[nodiscard]] PointId put_points(const StopLine& line, PointId next);
+    void put_point(PointId id, const Ranks& ranks);
+    template <class Visit>
+    void for_each_vertex(const Face& face, const Visit& visit) const;
     void make_edges_of(const Face& face, BoundaryEdge* out) const;
     template <class Visit>
     void for_each_stop(const Interval& interval, const Stops& stops, const Visit& visit) const;

@@ -276,12 +276,29 @@ void EdgeSplitter::split(std::span<const BoundaryEdge> edges, BoundaryEdges& out
     }
 }
 
+// Before several threads would need them: who builds them alone keeps the others waiting.
+void EdgeSplitter::build_boxes(std::span<const BoundaryEdge> edges, std::uint32_t threads) {
+    constexpr std::size_t worth = 64;
+    std::atomic<std::size_t> count{0};
+    ParallelParts(edges.size(), threads, least_edges_split)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end && count < worth; ++i) {
+                const EdgeFilter filter(bench_.approximation(edges[i].from).c,
+                                        bench_.approximation(edges[i].to).c, 3 * widest_);
+                if (!grid_.takes(filter.low(), filter.high()) && !axis_of_columns(edges[i]))
+                    ++count;
+            }
+        });
+    if (count >= worth) has_boxes_.by([&] { boxes_.build(candidates_, threads); });
+}
+
 // An edge belongs to the part that its ends say, so that both facets of it find it there.
 void EdgeSplitter::split_in_parts(std::span<const BoundaryEdge> edges, BoundaryEdges& out,
                                   std::size_t count, std::uint32_t threads) {
     const auto part_of = [count](const BoundaryEdge& e) {
         return static_cast<std::size_t>((LookedEdges::hash_of(e) >> 32U) % count);
     };
+    build_boxes(edges, threads);
     std::vector<LookedEdges> looked(count);
     PoolVector<std::uint32_t> numbers(edges.size());  // of each edge in its part
     ParallelParts(count, threads, 1).for_each([&](std::size_t, std::size_t begin, std::size_t end) {

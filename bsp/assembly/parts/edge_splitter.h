@@ -71,6 +71,7 @@ private:
     [[nodiscard]] double short_length(std::span<const BoundaryEdge> edges) const;
     void split_in_parts(std::span<const BoundaryEdge> edges, BoundaryEdges& out, std::size_t count,
                         std::uint32_t threads);
+    void build_boxes(std::span<const BoundaryEdge> edges, std::uint32_t threads);
     void find_inside(const BoundaryEdge& e, PoolVector<PointId>& inside);
     void find_inside_sorted(const BoundaryEdge& e, PoolVector<PointId>& inside);
     void find_inside_near(const BoundaryEdge& e, PoolVector<PointId>& inside);

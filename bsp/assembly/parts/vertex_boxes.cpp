@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/task_group.h>
 #include <trisect/kernel/support/wide_clones.h>
 
 namespace trisect::detail {
@@ -14,6 +16,10 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::uint32_t few = 8;  // vertices that are not parted
+
+// Fewer are not worth a thread. An eighth of them at least is on each side of a cut.
+constexpr std::uint32_t many = 16384;
+static_assert(many / 512 > few);
 
 struct VertexExtent {
     std::array<double, 3> lo;
@@ -33,7 +39,7 @@ VertexExtent box_of_vertices(std::span<const VertexBoxes::Vertex> vertices) {
 
 }  // namespace
 
-void VertexBoxes::build(std::span<Vertex> vertices) {
+void VertexBoxes::build(std::span<Vertex> vertices, std::uint32_t threads) {
     vertices_ = vertices;
     nodes_.clear();
     if (vertices.empty()) return;
@@ -50,7 +56,47 @@ void VertexBoxes::build(std::span<Vertex> vertices) {
     scale_ = extent > 0 ? std::ldexp(1.0, -std::ilogb(extent)) : 1;
     const auto count = static_cast<std::uint32_t>(vertices.size());
     nodes_.reserve(2 + count / few);
-    static_cast<void>(add(0, count));
+    if (threads == 1 || count < many) {
+        static_cast<void>(add(0, count, nodes_));
+    } else {
+        on_threads(threads, [&](std::uint32_t n) { add_all(count, n); });
+    }
+}
+
+// The first node by several threads, then what is below each of its children by one.
+void VertexBoxes::add_all(std::uint32_t count, std::uint32_t threads) {
+    std::array<std::uint32_t, width + 1> bounds{};
+    bounds.back() = count;
+    part_on_threads(bounds);
+    Node root;
+    root.begin = bounds;
+    root.count = width;
+    std::array<Nodes, width> below;
+    ParallelParts(width, threads, 1).for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            set_box(root, static_cast<std::uint32_t>(i), bounds[i], bounds[i + 1]);
+            static_cast<void>(add(bounds[i], bounds[i + 1], below[i]));
+        }
+    });
+    nodes_.push_back(root);
+    for (std::size_t i = 0; i < width; ++i) {
+        const auto first = static_cast<std::uint32_t>(nodes_.size());
+        nodes_[0].child[i] = first;
+        for (Node& n : below[i]) {
+            for (std::uint32_t& child : n.child) child += child != 0 ? first : 0;
+            nodes_.push_back(n);
+        }
+    }
+}
+
+// Fills in the bounds between the first one and the last one; of many vertices all parts have more
+// than a few.
+void VertexBoxes::part_on_threads(std::span<std::uint32_t> bounds) {
+    if (bounds.size() < 3) return;
+    const std::size_t middle = bounds.size() / 2;
+    bounds[middle] = parted_at(bounds.front(), bounds.back());
+    both_at_once([&] { part_on_threads(bounds.first(middle + 1)); },
+                 [&] { part_on_threads(bounds.subspan(middle)); });
 }
 
 // In the middle of their box: those of one plane across the axis stay together. Where that leaves
@@ -99,16 +145,16 @@ void VertexBoxes::set_box(Node& node, std::uint32_t child, std::uint32_t begin,
     }
 }
 
-std::uint32_t VertexBoxes::add(std::uint32_t begin, std::uint32_t end) {
-    const auto place = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
+std::uint32_t VertexBoxes::add(std::uint32_t begin, std::uint32_t end, Nodes& nodes) {
+    const auto place = static_cast<std::uint32_t>(nodes.size());
+    nodes.emplace_back();
     Node node;
     constexpr int levels = 3;
     part(node, begin, end, levels);
     for (std::uint32_t i = 0; i < node.count; ++i)
         if (node.begin[i + 1] - node.begin[i] > few)
-            node.child[i] = add(node.begin[i], node.begin[i + 1]);
-    nodes_[place] = node;
+            node.child[i] = add(node.begin[i], node.begin[i + 1], nodes);
+    nodes[place] = node;
     return place;
 }
 

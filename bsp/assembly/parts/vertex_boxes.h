@@ -22,8 +22,8 @@ public:
         PointId point = -1;
     };
 
-    /// Sorts the vertices, which must outlive it. O(n log n)
-    void build(std::span<Vertex> vertices);
+    /// Sorts the vertices, which must outlive it. O(n log n). `threads` as in ParallelParts.
+    void build(std::span<Vertex> vertices, std::uint32_t threads = 1);
     void clear() { nodes_.clear(); }
     [[nodiscard]] bool is_empty() const { return nodes_.empty(); }
 
@@ -73,13 +73,16 @@ private:
 
     [[nodiscard]] Edge single_precision(const std::array<double, 3>& from,
                                         const std::array<double, 3>& to, double within) const;
-    [[nodiscard]] std::uint32_t add(std::uint32_t begin, std::uint32_t end);
+    using Nodes = PoolVector<Node>;
+    std::uint32_t add(std::uint32_t begin, std::uint32_t end, Nodes& nodes);
+    void add_all(std::uint32_t count, std::uint32_t threads);
+    void part_on_threads(std::span<std::uint32_t> bounds);
     void part(Node& node, std::uint32_t begin, std::uint32_t end, int levels);
     void set_box(Node& node, std::uint32_t child, std::uint32_t begin, std::uint32_t end) const;
     [[nodiscard]] std::uint32_t parted_at(std::uint32_t begin, std::uint32_t end);
 
     std::span<Vertex> vertices_;
-    PoolVector<Node> nodes_;
+    Nodes nodes_;
     std::array<double, 3> origin_{};
     double rounding_ = 0;  // of a coordinate, to single precision
     double scale_ = 1;     // a power of two, so that all vertices are within one or two

@@ -36,8 +36,7 @@ public:
                                      const std::array<double, 3>& hi, const LookAt& look_at) const {
         const Place first = place_of(lo);
         const Place last = place_of(hi);
-        const auto count = [&](std::size_t k) { return last[k] - first[k] + 1; };
-        if (count(0) * count(1) * count(2) > most_cubes) return false;
+        if (cube_count(first, last) > most_cubes) return false;
         for (std::int64_t x = first[0]; x <= last[0]; ++x)
             for (std::int64_t y = first[1]; y <= last[1]; ++y)
                 for (std::int64_t z = first[2]; z <= last[2]; ++z) {
@@ -46,6 +45,12 @@ public:
                         look_at(std::span(vertices_).subspan(cell.first, cell.count));
                 }
         return true;
+    }
+
+    /// Whether for_each_near() returns true.
+    [[nodiscard]] bool takes(const std::array<double, 3>& lo,
+                             const std::array<double, 3>& hi) const {
+        return cube_count(place_of(lo), place_of(hi)) <= most_cubes;
     }
 
 private:
@@ -66,6 +71,10 @@ private:
             out[k] = static_cast<std::int64_t>(std::fmin(
                 std::fmax((c[k] - origin_[k]) * per_unit_, 0), static_cast<double>(most_along)));
         return out;
+    }
+    [[nodiscard]] static std::int64_t cube_count(const Place& first, const Place& last) {
+        const auto count = [&](std::size_t k) { return last[k] - first[k] + 1; };
+        return count(0) * count(1) * count(2);
     }
     [[nodiscard]] static std::uint64_t key_of(const Place& p) {
         return static_cast<std::uint64_t>(p[0]) << 42 | static_cast<std::uint64_t>(p[1]) << 21 |
