@@ -290,20 +290,6 @@ PlaneId AxisFaceOutlines<Number>::plane_of(std::size_t axis, std::uint32_t rank)
     return s.id;
 }
 
-// Of a vertex that has none. What nothing else names takes no name.
-template <class Number>
-PointId AxisFaceOutlines<Number>::new_point(const Ranks& ranks) {
-    if (names_points_) return point_at(ranks);
-    if (const std::int32_t c = corner_ids_.find(key_of(ranks)); c >= 0) {
-        const CornerName& name = corners_[as_index(c)];
-        return parts_.bench.add_corner(name.source,
-                                       name.source->corner_index(name.facet, name.corner));
-    }
-    std::array<PlaneId, 3> planes{};
-    for (std::size_t k = 0; k < 3; ++k) planes[k] = plane_of(k, ranks[k]);
-    return parts_.bench.add_point(planes[0], planes[1], planes[2], place_at(ranks));
-}
-
 template <class Number>
 PointId AxisFaceOutlines<Number>::point_at(const Ranks& ranks) {
     const Key128 key = key_of(ranks);
@@ -345,15 +331,14 @@ void AxisFaceOutlines<Number>::make_edges(BoundaryEdges& edges) {
     const std::vector<Face> faces = faces_in_order();
     PoolVector<std::size_t> first;  // edge of each face
     std::size_t count = edges.size();
-    const bool by_many = !names_points_ && threads_ != 1 && stops_.size() >= 2 * least_stops;
     for (const Face& face : faces) {
         check_stop(face.intervals.size());
         name_planes(face);
-        if (!by_many) name_points(face);
+        if (names_points_) name_points(face);
         first.push_back(count);
         count += count_edges(face);
     }
-    if (by_many) name_on_threads(faces);
+    if (!names_points_) make_points(faces);
     edges.resize(count);
     ParallelParts(faces.size(), threads_, least_planes)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
@@ -463,16 +448,16 @@ template <class Number>
 void AxisFaceOutlines<Number>::name_points(const Face& face) {
     for_each_vertex(face, [&](const Stop& stop, const Ranks& at) {
         PointId& point = stops_[stop.same].point;
-        if (point == Stop::none) point = new_point(at);
+        if (point == Stop::none) point = point_at(at);
     });
 }
 
-// Where nothing else has points: they come in the order of the stops.
+// Where nothing else has points they take no names, and come in the order of the stops.
 template <class Number>
-void AxisFaceOutlines<Number>::name_on_threads(std::span<const Face> faces) {
+void AxisFaceOutlines<Number>::make_points(std::span<const Face> faces) {
     for (FacePlane& s : face_planes_)
         if (s.id < 0) s.id = parts_.bench.plane(s.name);
-    ParallelParts(faces.size(), threads_, 1)
+    ParallelParts(faces.size(), stops_.size() < least_stops ? 1 : threads_, 1)
         .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
             for (const Face& face : faces.subspan(begin, end - begin))
                 for_each_vertex(face, [&](const Stop& stop, const Ranks&) {
@@ -492,13 +477,13 @@ void AxisFaceOutlines<Number>::name_on_threads(std::span<const Face> faces) {
     });
     std::partial_sum(before.begin(), before.end(), before.begin());
     const PointId first = parts_.bench.make_room(0, as_index(before.back())).first_point;
-    parts_.bench.share();
+    if (threads_ != 1) parts_.bench.share();
     parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
         PointId next = first + before[part];
         for (const StopLine& line : std::span(all_lines_).subspan(begin, end - begin))
             next = put_points(line, next);
     });
-    parts_.bench.end_sharing();
+    if (threads_ != 1) parts_.bench.end_sharing();
 }
 
 // Those of a line that are wanted. Returns the number after theirs.

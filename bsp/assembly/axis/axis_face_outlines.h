@@ -185,7 +185,7 @@ private:
                                               std::uint32_t own) const;
     void name_points(const Face& face);
     void name_planes(const Face& face);
-    void name_on_threads(std::span<const Face> faces);
+    void make_points(std::span<const Face> faces);
     [[nodiscard]] PointId put_points(const StopLine& line, PointId next);
     void put_point(PointId id, const Ranks& ranks);
     template <class Visit>
@@ -196,7 +196,6 @@ private:
     [[nodiscard]] Ranks ranks_of(const LatticePoint& p) const;
     [[nodiscard]] std::uint32_t rank(std::size_t axis, Number at) const;
     [[nodiscard]] PlaneId plane_of(std::size_t axis, std::uint32_t rank);
-    [[nodiscard]] PointId new_point(const Ranks& ranks);
     [[nodiscard]] PointId point_at(const Ranks& ranks);
     [[nodiscard]] PointId make_point(const Ranks& ranks);
     [[nodiscard]] Approximation place_at(const Ranks& ranks) const;

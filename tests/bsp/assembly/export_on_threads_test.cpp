@@ -104,6 +104,15 @@ TEST(ExportOnThreads, ManyBalls) {
     EXPECT_GT(expect_the_same_on_threads(evaluate(Expression::any_of(balls))), 3000U);
 }
 
+// More of them, so that planes, points and edges are made by several threads, too.
+TEST(ExportOnThreads, ManyLargerBalls) {
+    std::vector<Solid> balls;
+    for (int i = 0; i < 40; ++i)
+        balls.push_back(
+            solids::ball(1, 5, {0.31 * i, 0.4 * (i % 3), 0.27 * ((i * 7) % 5)}, 0x1p-30));
+    EXPECT_GT(expect_the_same_on_threads(evaluate(Expression::any_of(balls))), 16384U);
+}
+
 // Vertices of many facets in special position are looked for inside their edges.
 TEST(ExportOnThreads, BoresThroughAPlate) {
     PolygonMesh bores;
@@ -148,9 +157,8 @@ TEST(ExportOnThreads, PocketsBeyondThePlate) {
     EXPECT_GT(expect_the_same_on_threads(plate), 16000U);
 }
 
-// Bars across each other: planes with hundreds of edges each, outlined one by one.
-TEST(ExportOnThreads, PlanesAcrossAxes) {
-    constexpr int count = 9;
+// A box less bars across each other. Returns the edges.
+std::size_t expect_the_same_of_bars(int count) {
     std::vector<Solid> bars;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         PolygonMesh mesh;
@@ -171,7 +179,13 @@ TEST(ExportOnThreads, PlanesAcrossAxes) {
     }
     const double side = 3 * count;
     const Solid rest = evaluate(solids::box(0, 0, 0, side, side, side) - Expression::any_of(bars));
-    EXPECT_GT(expect_the_same_on_threads(rest), 2048U);
+    return expect_the_same_on_threads(rest);
 }
+
+// Planes with hundreds of edges each, outlined one by one.
+TEST(ExportOnThreads, PlanesAcrossAxes) { EXPECT_GT(expect_the_same_of_bars(9), 2048U); }
+
+// The same with so many vertices that several threads make them.
+TEST(ExportOnThreads, LargePlanesAcrossAxes) { EXPECT_GT(expect_the_same_of_bars(24), 16384U); }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <vector>
@@ -38,11 +39,12 @@ void add_points(const Source& source, Workbench& bench) {
                     (void)bench.meet(sides[i], sides[j], sides[k]);
 }
 
-std::vector<std::vector<PointId>> groups_of(const Workbench& bench) {
+std::vector<std::vector<PointId>> groups_of(const Workbench& bench, std::uint32_t threads = 1) {
     std::vector<std::vector<PointId>> groups;
-    trisect::detail::for_each_near_group(bench, [&](std::span<const PointId> group) {
-        groups.emplace_back(group.begin(), group.end());
-    });
+    trisect::detail::for_each_near_group(
+        bench,
+        [&](std::span<const PointId> group) { groups.emplace_back(group.begin(), group.end()); },
+        threads);
     return groups;
 }
 
@@ -68,6 +70,21 @@ TEST(NearPoints, CornersOfAGridOfBoxesAreGroupedByValue) {
         }
     }
     EXPECT_EQ(group_of.size(), bench.point_count());
+}
+
+TEST(NearPoints, GroupsAreTheSameOnThreads) {
+    std::vector<std::shared_ptr<const Source>> sources;
+    Workbench bench;
+    for (int i = 0; i < 6 * 6 * 8; ++i) {
+        const std::array<int, 3> at{2 * (i % 6), 2 * (i / 6 % 6), 2 * (i / 36)};
+        sources.push_back(Source::make(engines::lattice_mesh(
+            reference::box({at[0], at[1], at[2]}, {at[0] + 2, at[1] + 2, at[2] + 2}))));
+        add_points(*sources.back(), bench);
+    }
+    ASSERT_GT(bench.point_count(), 16384U);  // fewer are looked at by one thread
+    const auto groups = groups_of(bench);
+    EXPECT_EQ(groups.size(), std::size_t{7 * 7 * 9});
+    for (const std::uint32_t threads : {2U, 5U}) EXPECT_EQ(groups_of(bench, threads), groups);
 }
 
 TEST(NearPoints, APointAloneIsInNoGroup) {

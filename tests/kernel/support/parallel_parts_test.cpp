@@ -24,6 +24,7 @@ namespace {
 using trisect::detail::both_at_once;
 using trisect::detail::on_threads;
 using trisect::detail::ParallelParts;
+using trisect::detail::PartsOfRanges;
 
 TEST(ParallelParts, CoverEveryNumberOnce) {
     for (const std::size_t size : {0UL, 1UL, 2UL, 7UL, 1000UL, 4097UL}) {
@@ -37,6 +38,30 @@ TEST(ParallelParts, CoverEveryNumberOnce) {
             });
             EXPECT_EQ(seen, std::vector<int>(size, 1));
             EXPECT_EQ(of_part, std::vector<int>(parts.count(), 1));
+        }
+    }
+}
+
+TEST(PartsOfRanges, CoverEveryNumberOfEachRangeOnce) {
+    const std::vector<std::size_t> sizes{0, 5, 4097, 1, 0, 300, 12, 2000};
+    for (const std::uint32_t threads : {0U, 1U, 2U, 5U}) {
+        const PartsOfRanges parts(
+            sizes.size(), [&](std::size_t r) { return sizes[r]; }, threads, 100);
+        std::vector<std::vector<int>> seen;
+        for (const std::size_t size : sizes) seen.emplace_back(size);
+        std::vector<PartsOfRanges::Part> in_order(parts.count());
+        parts.for_each([&](std::size_t number, const PartsOfRanges::Part& p) {
+            in_order[number] = p;
+            EXPECT_EQ(p.is_whole, p.begin == 0 && p.end == sizes[p.range]);
+            for (std::size_t i = p.begin; i < p.end; ++i) ++seen[p.range][i];
+        });
+        for (std::size_t r = 0; r < sizes.size(); ++r)
+            EXPECT_EQ(seen[r], std::vector<int>(sizes[r], 1));
+        for (std::size_t k = 1; k < in_order.size(); ++k)
+            EXPECT_TRUE(in_order[k - 1].range < in_order[k].range ||
+                        in_order[k - 1].end == in_order[k].begin);
+        if (threads == 1) {
+            EXPECT_EQ(parts.count(), sizes.size());
         }
     }
 }

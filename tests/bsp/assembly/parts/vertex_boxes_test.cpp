@@ -67,6 +67,32 @@ TEST_P(VertexBoxesOfSize, FindAllVerticesOnAnEdgeAndFewOthers) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, VertexBoxesOfSize, testing::Values(1, 0x1p-70, 0x1p58));
 
+// Many vertices are parted by several threads: in the same way.
+TEST(VertexBoxes, AreTheSameOnThreads) {
+    std::mt19937 random(5);
+    const auto at = [&] { return static_cast<double>(random() % 1000); };
+    std::vector<VertexBoxes::Vertex> alone;
+    for (int i = 0; i < 20000; ++i) alone.push_back({{at(), at(), i % 3 == 0 ? 7 : at()}, i});
+    std::vector<VertexBoxes::Vertex> shared = alone;
+    VertexBoxes by_one;
+    VertexBoxes by_many;
+    by_one.build(alone);
+    by_many.build(shared, 4);
+    for (std::size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(alone[i].point, shared[i].point);
+    for (int i = 0; i < 100; ++i) {
+        const Point from{at(), at(), at()};
+        const Point to{at(), at(), at()};
+        const auto found = [&](const VertexBoxes& boxes) {
+            std::vector<int> out;
+            boxes.for_each_near(from, to, 0.5, [&](std::span<const VertexBoxes::Vertex> part) {
+                for (const auto& v : part) out.push_back(v.point);
+            });
+            return out;
+        };
+        EXPECT_EQ(found(by_many), found(by_one));
+    }
+}
+
 // Rings of many vertices in planes far from the origin: an edge from one to the next one meets few
 // others.
 TEST(VertexBoxes, OfPlanesStayTogether) {
