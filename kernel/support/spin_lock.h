@@ -10,8 +10,8 @@ namespace trisect::detail {
 
 /// For std::lock_guard. Who waits looks again and again, and after some hundred looks lets other
 /// threads run in between: to sleep and to be woken takes a hundred times as long as what is done
-/// under such a lock. Not recursive, not fair. In a line of the cache of its own: who looks for it
-/// must not slow down who works beside it.
+/// under such a lock. Not recursive, not fair. In a line of the cache of its own, so that looking
+/// for it does not slow down work beside it.
 class alignas(64) SpinLock {
 public:
     void lock() {

@@ -276,7 +276,7 @@ void EdgeSplitter::split(std::span<const BoundaryEdge> edges, BoundaryEdges& out
     }
 }
 
-// Before several threads would need them: who builds them alone keeps the others waiting.
+// Before several threads need them: while one of them built the tree, the others would wait.
 void EdgeSplitter::build_boxes(std::span<const BoundaryEdge> edges, std::uint32_t threads) {
     constexpr std::size_t worth = 64;
     std::atomic<std::size_t> count{0};
