@@ -567,9 +567,8 @@ struct ListedFacets {
 
 PolygonMesh assemble_on_threads(const SolidState& solid, AssemblyStats* stats, bool by_planes,
                                 std::uint32_t threads, const MeshDetails& details) {
-    // No arena for what takes less than a millisecond: another thread comes after a tenth of one.
-    constexpr std::size_t least_listed = 2048;
-    const bool small = std::visit(ListedFacets(), solid.form) < least_listed;
+    // No arena for what no step would divide.
+    const bool small = std::visit(ListedFacets(), solid.form) < 8 * least_group_count;
     return on_threads(small ? 1 : threads, [&](std::uint32_t n) {
         return assemble(solid, stats, by_planes, n, details);
     });
