@@ -144,17 +144,21 @@ namespace {
 // Fewer edges are not worth a part.
 constexpr std::size_t least_edges = 8192;
 
-// Calls work(part, begin, end) for parts of the edges; those of a facet stay together.
+// Calls work(part, begin, end) for parts of the edges; those of a facet stay together. The work may
+// reorder the edges of its part.
 template <class Work>
 void for_each_part(std::span<const BoundaryEdge> edges, std::uint32_t threads, const Work& work) {
-    const auto at_facet = [&](std::size_t i) {
+    const ParallelParts parts(edges.size(), threads, least_edges);
+    PoolVector<std::size_t> bounds{0};
+    for (std::size_t part = 1; part < parts.count(); ++part) {
+        std::size_t i = std::max(bounds.back(), edges.size() * part / parts.count());
         while (i != 0 && i < edges.size() && edges[i].facet == edges[i - 1].facet) ++i;
-        return i;
-    };
-    ParallelParts(edges.size(), threads, least_edges)
-        .for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
-            work(part, at_facet(begin), at_facet(end));
-        });
+        bounds.push_back(i);
+    }
+    bounds.push_back(edges.size());
+    parts.for_each([&](std::size_t part, std::size_t, std::size_t) {
+        work(part, bounds[part], bounds[part + 1]);
+    });
 }
 
 // Whether an edge lies in a splitting plane.
