@@ -13,6 +13,7 @@
 #include <trisect/bsp/cells/point_order.h>
 #include <trisect/kernel/number/error_bounds.h>
 #include <trisect/kernel/support/as_index.h>
+#include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>
 
 namespace trisect::detail {
@@ -108,12 +109,14 @@ void EdgeSplitter::add_candidate(PointId p) {
     candidates_.push_back({bench_.approximation(p).c, p});
 }
 
-// Along the longest axis; of a fifth of the edges that or less. Looks at some.
+// Along the longest axis; of a fifth of the edges that or less. Looks at some, at irregular
+// distances: facets of a prism have their short edges at regular ones.
 double EdgeSplitter::short_length(std::span<const BoundaryEdge> edges) const {
     std::vector<double> lengths;
     constexpr std::size_t most = 512;
     const std::size_t step = 1 + edges.size() / most;
-    for (std::size_t i = 0; i < edges.size(); i += step) {
+    for (std::size_t begin = 0; begin < edges.size(); begin += step) {
+        const std::size_t i = begin + mix64(begin) % std::min(step, edges.size() - begin);
         const std::array<double, 3>& a = bench_.approximation(edges[i].from).c;
         const std::array<double, 3>& b = bench_.approximation(edges[i].to).c;
         const std::size_t axis = longest_axis(a, b);

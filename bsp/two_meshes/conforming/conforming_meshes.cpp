@@ -12,7 +12,8 @@
 //    borders are equal, edge for edge: the triangles of an embedded mesh do not overlap, so a
 //    border determines what of the plane they cover.
 // 4. Facets that have one corner in common, and others, must have nothing else in common. The
-//    former are compared around the corner, in doubles; a search by boxes finds the latter.
+//    former are compared around the corner, in doubles; a search by boxes finds the latter. Facets
+//    around such a part of a plane are not compared with those in it.
 
 #include <trisect/bsp/two_meshes/conforming/conforming_meshes.h>
 
@@ -23,6 +24,7 @@
 #include <utility>
 
 #include <trisect/brep/contact/triangle_contact.h>
+#include <trisect/bsp/two_meshes/conforming/beside_covering.h>
 #include <trisect/bsp/two_meshes/conforming/common_corner.h>
 #include <trisect/bsp/two_meshes/conforming/corner_fans.h>
 #include <trisect/bsp/two_meshes/conforming/covering_patches.h>
@@ -45,13 +47,13 @@ constexpr std::uint64_t most_pairs_of_a_facet = 512;
 // Of two facets, one of either mesh.
 class PairContacts {
 public:
-    PairContacts(const CornerNames& names, const Patches& patches)
-        : names_(names), patches_(patches) {}
+    PairContacts(const CornerNames& names, const Patches& patches, const BesideCovering& beside)
+        : names_(names), patches_(patches), beside_(beside) {}
 
     /// Whether they have nothing in common but corners and edges of both, or cover one part of a
     /// plane together with others.
     [[nodiscard]] bool is_conforming(std::uint32_t a, std::uint32_t b) const {
-        if (patches_.root(a) == patches_.root(b)) return true;
+        if (patches_.root(a) == patches_.root(b) || beside_.meets_properly(a, b)) return true;
         std::array<LatticePoint, 6> points;
         IndexedTriangle first{0, 1, 2};
         IndexedTriangle second{3, 4, 5};
@@ -67,6 +69,7 @@ public:
 private:
     const CornerNames& names_;
     const Patches& patches_;
+    const BesideCovering& beside_;
 };
 
 // The items of both meshes that use an edge, and the order of their half-planes.
@@ -237,8 +240,9 @@ public:
         if (!look_around_corners() || !patches_->is_consistent()) return std::nullopt;
         patches_->flatten();
         if (!look_at_covering()) return std::nullopt;
-        const PairContacts contacts(names_, *patches_);
-        if (!are_conforming(contacts) || !search(check_of(contacts), lists_to_compare()))
+        const BesideCovering beside(names_, *patches_);
+        const PairContacts contacts(names_, *patches_, beside);
+        if (!are_conforming(contacts) || !search(check_of(contacts), lists_to_compare(beside)))
             return std::nullopt;
         return result();
     }
@@ -293,13 +297,18 @@ private:
     }
 
     // Facets of both that are covered need no comparison: each mesh has them in its own boundary,
-    // where they meet others in corners and edges.
-    [[nodiscard]] std::vector<FacetLists> lists_to_compare() const {
+    // where they meet others in corners and edges. Nor do those beside them.
+    [[nodiscard]] std::vector<FacetLists> lists_to_compare(const BesideCovering& beside) const {
         std::array<FacetLists, 2> lists;  // by mesh: own ones, covered ones
-        for (std::uint32_t item = 0; item < names_.item_count(); ++item)
-            lists[names_.mesh_of(item)][patches_->is_covered(item) ? 1 : 0].push_back(
-                names_.facet(item));
-        return {{lists[0][0], lists[1][0]}, {lists[0][0], lists[1][1]}, {lists[0][1], lists[1][0]}};
+        FacetLists unclear;               // of the own ones
+        for (std::uint32_t item = 0; item < names_.item_count(); ++item) {
+            const std::size_t mesh = names_.mesh_of(item);
+            const std::uint32_t facet = names_.facet(item);
+            const bool is_covered = patches_->is_covered(item);
+            lists[mesh][is_covered ? 1 : 0].push_back(facet);
+            if (!is_covered && !beside.is_clear(item)) unclear[mesh].push_back(facet);
+        }
+        return {{lists[0][0], lists[1][0]}, {unclear[0], lists[1][1]}, {lists[0][1], unclear[1]}};
     }
 
     // Items of facets.
