@@ -8,6 +8,7 @@
 #include <trisect/brep/validate/manifold_mesh.h>
 
 #include <algorithm>
+#include <array>
 
 #include <trisect/brep/contact/embedding_counters.h>
 #include <trisect/brep/contact/graph_corners.h>
@@ -28,6 +29,34 @@ constexpr std::uint64_t pairs_of_a_triangle = 200;
 constexpr std::uint64_t least_pairs = 1'000'000;
 
 enum class Found : std::uint8_t { Nothing, Contact, Unclear };
+
+// Of so few the boxes are compared with those of all triangles, one by one.
+constexpr std::size_t few_triangles = 128;
+
+// Doubles are exact.
+struct CornerBox {
+    std::array<double, 3> lo{}, hi{};
+
+    CornerBox(std::span<const LatticePoint> points, const ManifoldMesh::Triangle& t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto at = [&](std::size_t i) {
+                return points[t[i]][static_cast<int>(k)].to_double();
+            };
+            lo[k] = std::min({at(0), at(1), at(2)});
+            hi[k] = std::max({at(0), at(1), at(2)});
+        }
+    }
+    [[nodiscard]] bool meets(const CornerBox& o) const {
+        return lo[0] <= o.hi[0] && o.lo[0] <= hi[0] && lo[1] <= o.hi[1] && o.lo[1] <= hi[1] &&
+               lo[2] <= o.hi[2] && o.lo[2] <= hi[2];
+    }
+    void add(const CornerBox& o) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            lo[k] = std::min(lo[k], o.lo[k]);
+            hi[k] = std::max(hi[k], o.hi[k]);
+        }
+    }
+};
 
 bool share_one_of(std::span<const std::uint8_t> corners, const ManifoldMesh::Triangle& a,
                   const ManifoldMesh::Triangle& b) {
@@ -74,9 +103,38 @@ std::optional<bool> ManifoldMesh::are_shells_nested() const {
 std::optional<bool> ManifoldMesh::has_no_contact() const { return has_no_contact_of({}); }
 
 std::optional<bool> ManifoldMesh::has_no_contact(std::span<const std::uint32_t> triangles) const {
+    if (triangles.size() <= few_triangles) return have_few_no_contact(triangles);
     std::vector<std::uint8_t> marks(triangles_.size(), 0);
     for (const std::uint32_t t : triangles) marks[t] = 1;
     return has_no_contact_of(marks);
+}
+
+// Sheets and a tree over all triangles would cost far more.
+std::optional<bool> ManifoldMesh::have_few_no_contact(
+    std::span<const std::uint32_t> triangles) const {
+    if (triangles.empty()) return true;
+    ++embedding_counters().compared;
+    check_stop(triangles_.size());
+    std::vector<CornerBox> boxes;
+    for (const std::uint32_t t : triangles) boxes.emplace_back(points_, triangles_[t]);
+    CornerBox all = boxes[0];
+    for (const CornerBox& box : boxes) all.add(box);
+    std::uint64_t pairs = 0;
+    const std::uint64_t limit = pair_limit_of(triangles_.size());
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+        const CornerBox box(points_, triangles_[t]);
+        if (!box.meets(all)) continue;
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            if (triangles[i] == t || !box.meets(boxes[i])) continue;
+            check_stop();
+            const Triangle& other = triangles_[triangles[i]];
+            if (has_equal_corners(other, triangles_[t])) return std::nullopt;
+            if (++pairs > limit ||
+                find_contact(points_, other, triangles_[t]).kind != ContactKind::None)
+                return false;
+        }
+    }
+    return true;
 }
 
 std::optional<bool> ManifoldMesh::has_no_contact_of(std::span<const std::uint8_t> marks) const {

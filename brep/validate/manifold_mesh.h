@@ -64,6 +64,9 @@ private:
     // By triangle: one of a pair is marked. All pairs where there are no marks.
     [[nodiscard]] std::optional<bool> has_no_contact_of(std::span<const std::uint8_t> marks) const;
 
+    [[nodiscard]] std::optional<bool> have_few_no_contact(
+        std::span<const std::uint32_t> triangles) const;
+
     std::span<const LatticePoint> points_;
     std::span<const Triangle> triangles_;
     Twins twins_;

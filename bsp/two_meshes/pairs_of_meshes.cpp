@@ -158,7 +158,6 @@ private:
     // inwards, of all of them.
     [[nodiscard]] std::optional<FoundPairs> find_by_corners(EvaluateStats& stats) {
         const LatticeMesh& mesh = *two_.meshes[1];
-        if (!are_embedded(mesh, near_[1])) return std::nullopt;
         start(false);
         const auto& operands = operands_.operands;
         const bool is_difference = operands[0].inside_above != operands[1].inside_above;
@@ -170,11 +169,25 @@ private:
             const PairSearch::Outcome outcome = search(out, shift);
             if (outcome.has_equal) continue;
             if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
+            const auto special = special_of_second(out.crossings);
+            if (!special.empty() && !are_embedded(mesh, special)) return std::nullopt;
             out.shares_facets = out.shares_facets || outcome.has_wish;
             out.crossings.moves = moves_;
             return finish(out, stats);
         }
         return std::nullopt;
+    }
+
+    // Nothing depends on the moves of others: they meet the first mesh as they do without. Where
+    // one of these touched another facet of its own mesh, that could pass through it once moved.
+    [[nodiscard]] static std::vector<std::uint32_t> special_of_second(const Crossings& crossings) {
+        const std::uint32_t first = crossings.operands[1].first;
+        std::vector<std::uint32_t> out;
+        for (const std::uint32_t number : crossings.special)
+            if (number >= first) out.push_back(number - first);
+        std::ranges::sort(out);
+        out.erase(std::unique(out.begin(), out.end()), out.end());
+        return out;
     }
 
     void start(bool keeps_sides) {
