@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Four tests, cheapest first: a line through an edge that separates the triangles in a projection
+// Tests, cheapest first: a line through an edge that separates the triangles in a projection
 // (the caps of machined parts are fans of needles whose boxes all overlap); the corners of one
-// triangle on one side of the other's plane; and the intervals in which the planes' common line
-// passes through the triangles, seen along an axis. An end of an interval is a quotient of numbers
-// with proved errors; none is divided. Last, a plane between them is searched for, which triangles
-// of one rounded face have.
+// triangle on one side of the other's plane; what a wall has in the plane of a cap across an axis,
+// a corner or an edge, beside the cap's triangle; and the intervals in which the planes' common
+// line passes through the triangles, seen along an axis. An end of an interval is a quotient of
+// numbers with proved errors; none is divided. Last, a plane between them is searched for, which
+// triangles of one rounded face have.
 
 #include <trisect/brep/contact/contact_filter.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include <trisect/brep/contact/embedding_counters.h>
 #include <trisect/kernel/number/ball.h>
@@ -25,6 +28,16 @@ namespace trisect::detail {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
+using Flat = std::array<double, 2>;
+
+// -1, 1, or 0 for unknown. Differences round once.
+int turn(const Flat& p, const Flat& q, const Flat& r) {
+    const double left = (q[0] - p[0]) * (r[1] - p[1]);
+    const double right = (q[1] - p[1]) * (r[0] - p[0]);
+    const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
+    const double t = left - right;
+    return t > bound ? 1 : (t < -bound ? -1 : 0);
+}
 
 // Whether the line of some edge keeps the triangles apart in the projection along the axis in which
 // a is largest, but for a shared corner on that line. Only a yes means something. The doubles are
@@ -49,8 +62,6 @@ public:
     }
 
 private:
-    using Flat = std::array<double, 2>;
-
     static int largest_normal_axis(std::span<const LatticePoint> points, const Triangle& t) {
         const Vector3 p = minus(points[t[1]].doubles(), points[t[0]].doubles());
         const Vector3 q = minus(points[t[2]].doubles(), points[t[0]].doubles());
@@ -61,14 +72,6 @@ private:
     }
     [[nodiscard]] Flat flat(const LatticePoint& p) const {
         return {p[u_].to_double(), p[v_].to_double()};
-    }
-    // -1, 1, or 0 for unknown.
-    static int turn(const Flat& p, const Flat& q, const Flat& r) {
-        const double left = (q[0] - p[0]) * (r[1] - p[1]);
-        const double right = (q[1] - p[1]) * (r[0] - p[0]);
-        const double bound = minor_rounding * (std::fabs(left) + std::fabs(right));
-        const double t = left - right;
-        return t > bound ? 1 : (t < -bound ? -1 : 0);
     }
     // The third corner of x strictly on one side of edge i, the corners of y strictly on the other,
     // except for one that is an end of the edge.
@@ -100,6 +103,7 @@ public:
         }
     }
     [[nodiscard]] const Vector3& corner(std::size_t i) const { return p_[i]; }
+    [[nodiscard]] bool is_shared(std::size_t i) const { return is_shared_[i]; }
     [[nodiscard]] const Vector3& shared_corner() const {
         return p_[is_shared_[0] ? 0 : is_shared_[1] ? 1 : 2];
     }
@@ -204,6 +208,68 @@ bool are_apart_on_line(const FilteredHalf& a, const FilteredHalf& b, int shared)
            order(of_a[1], of_b[1]) == first;
 }
 
+// The triangle strictly on the inner side of an edge, all points strictly on the outer one.
+bool is_beyond(const std::array<Flat, 3>& t, std::size_t edge, std::span<const Flat> points) {
+    const Flat& p = t[edge];
+    const Flat& q = t[(edge + 1) % 3];
+    const int inner = turn(p, q, t[(edge + 2) % 3]);
+    for (const Flat& r : points)
+        if (inner == 0 || turn(p, q, r) != -inner) return false;
+    return true;
+}
+
+// What of y, but for a shared corner, lies in the plane of x.
+struct InPlane {
+    std::array<Flat, 2> own{};
+    std::size_t count = 0;
+    std::optional<Flat> shared;
+};
+
+// Whether a point or a segment is apart from the triangle, or has but a shared corner of it: the
+// line of an edge is between convex figures that are apart.
+bool is_apart_in_plane(const std::array<Flat, 3>& x, const InPlane& y) {
+    const auto own = std::span(y.own).first(y.count);
+    if (y.shared) {
+        if (own.empty()) return true;
+        for (std::size_t i = 0; i < 3; ++i)
+            if ((x[i] == *y.shared || x[(i + 1) % 3] == *y.shared) && is_beyond(x, i, own))
+                return true;
+        return false;
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        if (is_beyond(x, i, own)) return true;
+    if (own.size() < 2) return false;
+    const int side = turn(own[0], own[1], x[0]);
+    return side != 0 && turn(own[0], own[1], x[1]) == side && turn(own[0], own[1], x[2]) == side;
+}
+
+// Where x lies across an axis, and y is on one side of it but for a corner or an edge in its plane.
+bool is_apart_across_axis(const FilteredHalf& x, const FilteredHalf& y) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double at = x.corner(0)[k];
+        if (x.corner(1)[k] != at || x.corner(2)[k] != at) continue;
+        const auto flat = [k](const Vector3& p) { return Flat{p[(k + 1) % 3], p[(k + 2) % 3]}; };
+        InPlane found;
+        int side = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double c = y.corner(i)[k];
+            if (c != at) {
+                const int s = c > at ? 1 : -1;
+                if (s == -side) return false;
+                side = s;
+            } else if (y.is_shared(i)) {
+                found.shared = flat(y.corner(i));
+            } else {
+                if (found.count == 2) return false;
+                found.own[found.count++] = flat(y.corner(i));
+            }
+        }
+        return side != 0 &&
+               is_apart_in_plane({flat(x.corner(0)), flat(x.corner(1)), flat(x.corner(2))}, found);
+    }
+    return false;
+}
+
 bool is_plane_between(const FilteredHalf& a, const FilteredHalf& b, int shared) {
     if (shared == 1) return have_plane_between(a.shared_corner(), a.own_corners(), b.own_corners());
     return have_plane_between({a.corner(0), a.corner(1), a.corner(2)},
@@ -231,7 +297,8 @@ bool are_plainly_apart(std::span<const LatticePoint> points, const Triangle& a, 
         return false;
     }
     x.measure(y);
-    if (x.is_one_sided()) return decided(counters.own_planes);
+    if (x.is_one_sided() || is_apart_across_axis(x, y) || is_apart_across_axis(y, x))
+        return decided(counters.own_planes);
     if (x.is_clear() && y.is_clear() && are_apart_on_line(x, y, shared))
         return decided(counters.intervals);
     if (is_plane_between(x, y, shared)) return decided(counters.other_planes);

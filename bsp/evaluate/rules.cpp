@@ -21,6 +21,7 @@
 #include <trisect/bsp/leaf/prism/prism_facets.h>
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 #include <trisect/bsp/many_meshes/parity/exclusive_or_without_tree.h>
+#include <trisect/bsp/two_meshes/few_facets.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/contract.h>
 
@@ -157,11 +158,6 @@ bool may_be_divided(const CellView& view) { return !view.undividable; }
 // One arrangement of segments is for prisms of few facets that cross each other everywhere.
 constexpr std::uint64_t few_of_prism = 64;
 
-bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
-                        const EvaluateSettings& options) {
-    return are_two_meshes(formula, solids, options);
-}
-
 // Of facets at these quarters of all lists.
 template <class Test>
 bool are_all_at(const SolidStates& solids, std::initializer_list<std::size_t> quarters,
@@ -177,6 +173,16 @@ bool are_all_at(const SolidStates& solids, std::initializer_list<std::size_t> qu
 bool are_mostly_across_axes(const SolidStates& solids) {
     return are_all_at(solids, {0, 4, 2, 1, 3},
                       [](const PolygonRef& r) { return is_axis_polygon(r); });
+}
+
+// Of so few facets leaves are faster, but not exact ones.
+constexpr std::size_t facets_of_tetrahedron = 4;
+
+bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
+                        const EvaluateSettings& options) {
+    return are_two_meshes(formula, solids, options) ||
+           (are_two_meshes(formula, solids, options, facets_of_tetrahedron) &&
+            are_apart_or_touch(solids) && !are_mostly_across_axes(solids));
 }
 
 // Which are one leaf, if they are of one axis.
@@ -223,12 +229,13 @@ constexpr std::size_t formula_rows = 5;
 constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
-    Rule{"two meshes",
-         "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, without an index, of a "
-         "size, or of "
-         "which the larger one is not large and was not compared so before; no work limit",
-         "uncrossed facets, crossings", &Stats::filtered_leaves,
-         FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},
+    Rule{
+        "two meshes",
+        "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, or 4 where they touch or "
+        "are apart and not all across the axes, without an index, of a size, or of which the "
+        "larger one is not large and was not compared so before; no work limit",
+        "uncrossed facets, crossings", &Stats::filtered_leaves,
+        FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},
     Rule{"outlines of prisms",
          "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
          "whole facets, outlines by name", &Stats::prism_leaves,

@@ -24,8 +24,8 @@ struct BoundaryFacet {
     std::uint32_t parts = 0;        ///< how many; the edges of one come in the order of its loop
     bool unchanged = false;         ///< see mark_unchanged_facets
     bool is_special = false;        ///< traced, and vertices may coincide or lie inside edges
-    bool is_general = false;        ///< outlined, and other facets do no more than cross it; planes
-                                    ///< of its own edges come just before the support
+    bool is_general = false;        ///< outlined or traced, and other facets do no more than cross
+                                    ///< it; planes of its own edges come just before the support
 };
 
 /// An edge of a part of a facet, directed so that the part lies to its left seen from outside.

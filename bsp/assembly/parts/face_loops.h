@@ -42,6 +42,10 @@ public:
     [[nodiscard]] std::span<const PointId> loop(std::size_t i) const {
         return std::span(points_).subspan(loops_[i].begin, loops_[i].size);
     }
+    /// The plane that cuts out the edge of a loop from its i-th point on.
+    [[nodiscard]] PlaneId line_from(std::size_t loop, std::size_t i) const {
+        return edges_[edge_at_[loops_[loop].begin + i]].line.plane;
+    }
     [[nodiscard]] bool has_holes() const {
         return std::any_of(loops_.begin(), loops_.end(), [](const Loop& l) { return !l.outer; });
     }

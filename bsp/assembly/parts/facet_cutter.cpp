@@ -76,13 +76,14 @@ void FacetCutter::cut_loop(std::size_t l, PoolVector<PointId>& out) {
     if (loop.size() > small_polygon_limit || !(loops_.are_simple() || is_simple(loop))) {
         cut_large(l, l + 1, out);
     } else {
-        cut_small(loop, out);
+        cut_small(l, out);
     }
 }
 
 // Vertices are rounded correctly, and all corners of a loop are used; so turns are those of rounded
 // corners, and few are left for integers.
-void FacetCutter::cut_small(std::span<const PointId> loop, PoolVector<PointId>& out) {
+void FacetCutter::cut_small(std::size_t l, PoolVector<PointId>& out) {
+    const auto loop = loops_.loop(l);
     const PlaneProjection::Axes axes = loops_.axes();
     rounded_.clear();
     exact_.clear();
@@ -90,7 +91,8 @@ void FacetCutter::cut_small(std::span<const PointId> loop, PoolVector<PointId>& 
     for (const PointId p : loop) add_rounded(p, axes);
     const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const int s = rounded_.turn(a, b, c);
-        return s != 0 ? s : exact_turn(loop, {a, b, c}, axes);
+        if (s != 0 || are_in_row(l, {a, b, c})) return s;
+        return exact_turn(loop, {a, b, c}, axes);
     };
     // A loop starts at its smallest vertex.
     const auto first_corner = [] { return std::uint32_t{0}; };
@@ -99,6 +101,20 @@ void FacetCutter::cut_small(std::span<const PointId> loop, PoolVector<PointId>& 
                                             out.insert(out.end(), {loop[a], loop[b], loop[c]});
                                         });
     TRISECT_EXPECTS(done, "a face with a simple outline has an ear");
+}
+
+// Whether the edges between them on one way around the loop are on one line, by name.
+bool FacetCutter::are_in_row(std::size_t l, const std::array<std::uint32_t, 3>& corners) const {
+    std::array<std::uint32_t, 3> c = corners;
+    std::ranges::sort(c);
+    const auto n = static_cast<std::uint32_t>(loops_.loop(l).size());
+    const auto is_line = [&](std::uint32_t from, std::uint32_t to) {
+        const PlaneId line = loops_.line_from(l, from);
+        for (std::uint32_t i = from; i != to; i = i + 1 == n ? 0 : i + 1)
+            if (loops_.line_from(l, i) != line) return false;
+        return true;
+    };
+    return is_line(c[0], c[2]) || is_line(c[1], c[0]) || is_line(c[2], c[1]);
 }
 
 // In units of the lattice. Multiples of at least 2^-330 of these units do not underflow in those of

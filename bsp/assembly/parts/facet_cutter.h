@@ -60,7 +60,8 @@ private:
     void add_all_of(const BoundaryFacet& f, std::span<const PointId> loop,
                     PoolVector<PointId>& out) const;
     void cut_loop(std::size_t l, PoolVector<PointId>& out);
-    void cut_small(std::span<const PointId> loop, PoolVector<PointId>& out);
+    void cut_small(std::size_t l, PoolVector<PointId>& out);
+    [[nodiscard]] bool are_in_row(std::size_t l, const std::array<std::uint32_t, 3>& corners) const;
     void add_rounded(PointId p, PlaneProjection::Axes axes);
     [[nodiscard]] Approximation nearest(PointId p) const;
     [[nodiscard]] int exact_turn(std::span<const PointId> loop,

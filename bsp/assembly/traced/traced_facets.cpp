@@ -184,6 +184,7 @@ private:
         BoundaryFacet& f = parts_.facets[as_index(number)];
         f.support = own_support_;
         f.is_special = traced_.is_special;
+        f.is_general = !f.is_special && own_support_ == own_ + 3;
         f.parts = f.is_special ? 2 : 1;
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// BesideCovering: facets that meet what both meshes cover in corners and edges alone.
+// BesideCovering: facets beside a common part of a plane.
 #pragma once
 
 #include <array>
