@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include <trisect/kernel/support/page_regions.h>
+#include <trisect/kernel/support/ready_memory.h>
 #endif
 
 namespace trisect::detail {
@@ -33,9 +34,14 @@ SharedRegions& shared() {
 MemoryBlock BlockPool::take(std::size_t bytes) {
     const std::size_t size = rounded(bytes);
     if (size < bytes) throw std::bad_alloc();
-    SharedRegions& all = shared();
-    const std::lock_guard lock(all.mutex);
-    return all.regions.take(size);
+    const PageRegions::Taken taken = [&] {
+        SharedRegions& all = shared();
+        const std::lock_guard lock(all.mutex);
+        return all.regions.take(size);
+    }();
+    // New pages take far longer than to be found: other threads do not wait for them.
+    if (!taken.is_ready) make_ready(taken.block.memory, taken.block.size);
+    return taken.block;
 }
 
 void BlockPool::give_back(const MemoryBlock& block) noexcept {

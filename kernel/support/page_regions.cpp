@@ -10,8 +10,6 @@
 
 #include <sys/mman.h>
 
-#include <trisect/kernel/support/ready_memory.h>
-
 namespace trisect::detail {
 
 namespace {
@@ -53,7 +51,7 @@ PageRegions::~PageRegions() {
     for (const auto& [begin, region] : regions_) (void)munmap(begin, region.size);
 }
 
-MemoryBlock PageRegions::take(std::size_t size) {
+PageRegions::Taken PageRegions::take(std::size_t size) {
     auto found = by_size_.lower_bound({size, nullptr});
     if (found == by_size_.end()) {
         add_region(size);
@@ -66,8 +64,7 @@ MemoryBlock PageRegions::take(std::size_t size) {
     } else {
         remove_free(span);
     }
-    use(region_of(block.memory)->second, block);
-    return block;
+    return {block, use(region_of(block.memory)->second, block)};
 }
 
 void PageRegions::give_back(const MemoryBlock& block) noexcept {
@@ -100,7 +97,8 @@ void PageRegions::add_region(std::size_t size) {
     mapped_ += bytes;
 }
 
-void PageRegions::use(Region& region, const MemoryBlock& block) {
+// Whether all of its pages may have memory.
+bool PageRegions::use(Region& region, const MemoryBlock& block) {
     bool is_ready = true;
     for_each_page(region.pages, region.begin, block,
                   [&](LargePage& page, std::size_t, std::uint32_t bytes) {
@@ -109,7 +107,7 @@ void PageRegions::use(Region& region, const MemoryBlock& block) {
                       page.is_ready = true;
                       page.used += bytes;
                   });
-    if (!is_ready) make_ready(block.memory, block.size);
+    return is_ready;
 }
 
 void PageRegions::leave(Region& region, const MemoryBlock& block) noexcept {

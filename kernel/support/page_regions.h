@@ -27,8 +27,14 @@ public:
     PageRegions& operator=(const PageRegions&) = delete;
     ~PageRegions();
 
+    struct Taken {
+        MemoryBlock block;
+        /// Whether its pages may have memory already; else make_ready() serves, which several
+        /// threads may call at once.
+        bool is_ready = false;
+    };
     /// A block of `size` bytes, a positive multiple of BlockPool::granule. \throw std::bad_alloc
-    [[nodiscard]] MemoryBlock take(std::size_t size);
+    [[nodiscard]] Taken take(std::size_t size);
     void give_back(const MemoryBlock& block) noexcept;
 
     /// In bytes: of regions, and of free large pages that are ready.
@@ -49,7 +55,7 @@ private:
     using Free = std::map<std::byte*, std::size_t>;
 
     void add_region(std::size_t size);
-    void use(Region& region, const MemoryBlock& block);
+    [[nodiscard]] bool use(Region& region, const MemoryBlock& block);
     void leave(Region& region, const MemoryBlock& block) noexcept;
     void add_free(const Region& region, const MemoryBlock& span);
     void change_free(Free::iterator span, const MemoryBlock& now) noexcept;

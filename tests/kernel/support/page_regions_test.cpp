@@ -45,7 +45,7 @@ TEST(PageRegions, BlocksDoNotOverlapAndAllOfThemComesTogetherAgain) {
         if (taken.empty() || random() % 5 < 3) {
             // Mostly small ones; some of several large pages.
             const std::size_t pages = random() % 16 == 0 ? 1 + random() % 2000 : 1 + random() % 40;
-            const MemoryBlock block = regions.take(pages * BlockPool::granule);
+            const MemoryBlock block = regions.take(pages * BlockPool::granule).block;
             ASSERT_EQ(block.size, pages * BlockPool::granule);
             ASSERT_EQ(reinterpret_cast<std::uintptr_t>(block.memory) % BlockPool::granule, 0U);
             taken.push_back({block, step % 251});
@@ -67,14 +67,14 @@ TEST(PageRegions, BlocksDoNotOverlapAndAllOfThemComesTogetherAgain) {
     // Free spans have joined: a whole large page is there.
     const std::size_t mapped = regions.mapped();
     EXPECT_GE(mapped, regions.ready());
-    const MemoryBlock one = regions.take(large_page);
+    const MemoryBlock one = regions.take(large_page).block;
     EXPECT_EQ(regions.mapped(), mapped);
     regions.give_back(one);
 }
 
 TEST(PageRegions, GiveBackWhatGoesBeyondTheReadyOnes) {
     PageRegions regions(2 * large_page);
-    const MemoryBlock large = regions.take(50 * large_page);
+    const MemoryBlock large = regions.take(50 * large_page).block;
     std::memset(large.memory, 1, large.size);
     EXPECT_EQ(regions.ready(), 0U);
     EXPECT_EQ(regions.mapped(), 50 * large_page);
@@ -82,8 +82,8 @@ TEST(PageRegions, GiveBackWhatGoesBeyondTheReadyOnes) {
     EXPECT_EQ(regions.ready(), 2 * large_page);
 
     PageRegions none(0);
-    const MemoryBlock first = none.take(3 * large_page);
-    const MemoryBlock second = none.take(BlockPool::granule);
+    const MemoryBlock first = none.take(3 * large_page).block;
+    const MemoryBlock second = none.take(BlockPool::granule).block;
     EXPECT_GT(none.mapped(), 3 * large_page);
     none.give_back(first);
     none.give_back(second);
@@ -99,7 +99,7 @@ TEST(PageRegions, ServeARepeatedTaskFromWhatTheyHave) {
     for (int run = 0; run < 20; ++run) {
         std::vector<MemoryBlock> blocks;
         for (const std::size_t pages : sizes)
-            blocks.push_back(regions.take(pages * BlockPool::granule));
+            blocks.push_back(regions.take(pages * BlockPool::granule).block);
         for (const MemoryBlock& b : blocks) places.insert(b.memory);
         for (std::size_t i = 0; i < blocks.size(); ++i)
             regions.give_back(blocks[(i * 3 + static_cast<std::size_t>(run)) % blocks.size()]);
@@ -114,7 +114,7 @@ TEST(PageRegions, HaveNoMemoryForBlocksBeyondTheAddressSpace) {
     EXPECT_THROW((void)regions.take(std::size_t{1} << 62), std::bad_alloc);
     EXPECT_THROW((void)regions.take(~std::size_t{BlockPool::granule - 1}), std::bad_alloc);
     EXPECT_THROW((void)BlockPool::take(std::numeric_limits<std::size_t>::max()), std::bad_alloc);
-    regions.give_back(regions.take(BlockPool::granule));
+    regions.give_back(regions.take(BlockPool::granule).block);
     EXPECT_EQ(regions.mapped(), 0U);
 }
 
