@@ -30,19 +30,18 @@ struct Key128 {
 }
 
 /// Insert-only. Iteration order is never used, so hashing cannot leak into results.
+/// Without memory until the first key: of the maps that a small result makes most stay empty.
 class FlatMap {
 public:
-    FlatMap() { clear(); }
-
     // Keeps its capacity while that is moderate: the next leaf is about as large as the last.
     void clear() {
-        if (size_ == 0 && !slots_.empty()) return;
-        if (slots_.empty() || slots_.size() > 4096) slots_.resize(64);
+        if (size_ == 0) return;
+        if (slots_.size() > most_kept) slots_.resize(usual_slots);
         std::fill(slots_.begin(), slots_.end(), Slot{});
         size_ = 0;
     }
     void reserve(std::size_t n) {
-        std::size_t want = 64;
+        std::size_t want = usual_slots;
         while (want < 2 * n) want *= 2;
         if (want > slots_.size()) rehash(want);
     }
@@ -51,7 +50,7 @@ public:
 
     /// The value stored for the key; stores `value` first if there is none. Second: inserted?
     std::pair<std::int32_t, bool> insert(const Key128& key, std::int32_t value) {
-        if (2 * (size_ + 1) > slots_.size()) rehash(2 * slots_.size());
+        if (2 * (size_ + 1) > slots_.size()) grow();
         Slot& s = slots_[find_slot(key)];
         if (s.value >= 0) return {s.value, false};
         s = {key, value};
@@ -60,7 +59,7 @@ public:
     }
     /// -1 when absent.
     [[nodiscard]] std::int32_t find(const Key128& key) const {
-        return slots_[find_slot(key)].value;
+        return size_ == 0 ? -1 : slots_[find_slot(key)].value;
     }
     /// \pre the key is present.
     void assign(const Key128& key, std::int32_t value) { slots_[find_slot(key)].value = value; }
@@ -71,6 +70,9 @@ private:
         std::int32_t value = -1;
     };
     using Slots = std::vector<Slot, PoolAllocator<Slot>>;
+    static constexpr std::size_t first_slots = 16;
+    static constexpr std::size_t usual_slots = 64;
+    static constexpr std::size_t most_kept = 4096;
     [[nodiscard]] std::size_t find_slot(const Key128& key) const {
         const std::size_t mask = slots_.size() - 1;
         std::size_t i =
@@ -78,6 +80,13 @@ private:
         for (i &= mask; slots_[i].value >= 0 && !(slots_[i].key == key); i = (i + 1) & mask) {
         }
         return i;
+    }
+    void grow() {
+        if (slots_.size() < usual_slots) {
+            rehash(slots_.empty() ? first_slots : usual_slots);
+        } else {
+            rehash(2 * slots_.size());
+        }
     }
     void rehash(std::size_t n) {
         Slots old(n);
