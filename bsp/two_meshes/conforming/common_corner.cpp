@@ -18,7 +18,7 @@ namespace {
 
 // x and y carry one rounding each, so a place is within 8·2^-53 of the exact one, and differences
 // of two within 2^-48 of theirs.
-constexpr double margin = 0x1p-46;
+constexpr double relative_margin = 0x1p-46;
 constexpr double no_place = 8;
 constexpr double half_round = 2;
 constexpr double full_round = 4;
@@ -106,12 +106,12 @@ void CommonCorner::set_angles() {
             s.from = 0;
             s.width = full_round;
             if (next == no_place || last == no_place) continue;
-            if (turn > margin && turn < half_round - margin) {
+            if (turn > relative_margin && turn < half_round - relative_margin) {
                 s.from = next;
-                s.width = turn + margin;
-            } else if (turn > half_round + margin && turn < full_round - margin) {
+                s.width = turn + relative_margin;
+            } else if (turn > half_round + relative_margin && turn < full_round - relative_margin) {
                 s.from = last;
-                s.width = full_round - turn + margin;
+                s.width = full_round - turn + relative_margin;
             }
         }
 }
