@@ -3,8 +3,8 @@
 // Measures of solids: volume, area, centroid, bounds and counts.
 //
 // They are sums over the facets of the boundary; no B-rep is made. A boundary that may meet itself
-// is resolved first, so all of them are measures of the set. The functions of brep/measure.h measure
-// boundaries, as they are.
+// is resolved first, so all of them are measures of the set. The functions of brep/measure.h
+// measure boundaries, as they are.
 #pragma once
 
 #include <cstddef>

@@ -37,12 +37,14 @@ bool has_rational_area(const BoundaryFacet& facet) {
     return area(triangle).exact.has_value();
 }
 
-// A sum of positive roots of which one is irrational is so, too.
+// A sum of positive roots of which one is irrational is so, too. What facets in special position
+// have may have no width, and then no area: they do not make it irrational here.
 AreaKind kind_of(const BoundaryParts& parts) {
     AreaKind kind = AreaKind::OfFacetsAcrossAxes;
     const auto look_at = [&](const BoundaryFacet& facet) {
-        if (axis_across(facet) < 0)
-            kind = has_rational_area(facet) ? AreaKind::Unknown : AreaKind::Irrational;
+        if (axis_across(facet) >= 0) return;
+        const bool may_be_rational = facet.is_special || has_rational_area(facet);
+        kind = may_be_rational ? AreaKind::Unknown : AreaKind::Irrational;
     };
     for (const FacetMarks& marks : parts.sources)
         marks.for_each_whole([&](std::uint32_t facet, bool) {
@@ -110,8 +112,16 @@ public:
                                       slack_);
             }
         }
-        for (const VectorArea& a : areas) add(a);
+        for (std::size_t f = 0; f < fans.size(); ++f) {
+            if (fans[f].apex < 0 || fans[f].axis >= 0) continue;
+            const VectorArea& area = areas[fans[f].number];
+            add(area);
+            if (!is_irrational_ && area.is_surely_not_0())
+                is_irrational_ = !has_rational_area(parts_.facets[f]);
+        }
     }
+    /// Whether a facet that was cut has an irrational area.
+    [[nodiscard]] bool is_irrational() const { return is_irrational_; }
 
     [[nodiscard]] EnclosedArea result(Lattice lattice) const {
         const ExactRational middle = ExactRational::from_double(sum_.sum().high) +
@@ -160,6 +170,7 @@ private:
     AreaSum sum_;                     // doubled areas
     std::array<Int128, 2> across_{};  // of facets across axes: across_[0] + 2^64 across_[1]
     double error_ = 0;                // of those
+    bool is_irrational_ = false;
 };
 
 }  // namespace
@@ -168,7 +179,6 @@ std::optional<EnclosedArea> enclosed_area(const SolidState& solid) {
     BoundaryParts parts;
     gather_parts(solid, parts, true);
     const AreaKind kind = kind_of(parts);
-    if (kind == AreaKind::Unknown) return std::nullopt;
     const SplitUnits units = units_of(parts);
     SplitVertices vertices(parts, units);
     vertices.make(parts.edges);
@@ -177,8 +187,9 @@ std::optional<EnclosedArea> enclosed_area(const SolidState& solid) {
         if (!marks.source()->is_half_space()) area.add_whole_facets(marks);
     area.add_cut_facets();
     const EnclosedArea result = area.result(solid.lattice);
-    if (kind != AreaKind::Irrational && result.least != result.most) return std::nullopt;
-    return result;
+    if (kind == AreaKind::Irrational || area.is_irrational()) return result;
+    const bool is_exact = kind == AreaKind::OfFacetsAcrossAxes && result.least == result.most;
+    return is_exact ? std::optional(result) : std::nullopt;
 }
 
 }  // namespace trisect::detail

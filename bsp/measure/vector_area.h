@@ -55,6 +55,11 @@ public:
     [[nodiscard]] Int128 at(std::size_t i) const {
         return static_cast<Int128>(whole_[i] + static_cast<Uint128>(static_cast<Int128>(rest_[i])));
     }
+    [[nodiscard]] bool is_surely_not_0() const {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (std::fabs(static_cast<double>(at(i))) > 1.001 * error()) return true;
+        return false;
+    }
     /// What a component is off by at most.
     [[nodiscard]] double error() const { return error_ == 0 ? 0 : error_ + 1; }
 

@@ -166,6 +166,14 @@ TEST(Enclosures, OfChainsAndCavities) {
     }
 }
 
+// What facets in special position leave may have no width. Not with others is there an irrational
+// area: a result that is a box has an exact one.
+TEST(Enclosures, OfAResultWhoseSlantedFacetsLeaveNothing) {
+    const Solid box = brute::random_result(7977, 2 + 7977 % 5, false).solid;
+    (void)expect_measures_of_the_mesh(box, "a box");
+    EXPECT_EQ(trisect::area(assemble_exact_mesh(*state_of(box))).exact, ExactRational(446));
+}
+
 // Small integers, where everything coincides. Odd operands may meet themselves.
 TEST(Enclosures, OfRandomFormulasOnASmallGrid) {
     int volumes = 0;
