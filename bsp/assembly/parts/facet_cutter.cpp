@@ -91,8 +91,7 @@ void FacetCutter::cut_small(std::size_t l, PoolVector<PointId>& out) {
     for (const PointId p : loop) add_rounded(p, axes);
     const auto orientation = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const int s = rounded_.turn(a, b, c);
-        if (s != 0 || are_in_row(l, {a, b, c})) return s;
-        return exact_turn(loop, {a, b, c}, axes);
+        return s != 0 ? s : doubtful_turn(l, {a, b, c});
     };
     // A loop starts at its smallest vertex.
     const auto first_corner = [] { return std::uint32_t{0}; };
@@ -133,6 +132,12 @@ void FacetCutter::add_rounded(PointId p, PlaneProjection::Axes axes) {
 
 // Each corner is computed once: triangles that nearly lie in one plane make rows of corners that
 // nearly lie on one line, where many turns are exact.
+// One call for what is rare, so that the turns of rounded corners are compiled where they are
+// taken.
+int FacetCutter::doubtful_turn(std::size_t l, const std::array<std::uint32_t, 3>& corners) {
+    return are_in_row(l, corners) ? 0 : exact_turn(loops_.loop(l), corners, loops_.axes());
+}
+
 int FacetCutter::exact_turn(std::span<const PointId> loop,
                             const std::array<std::uint32_t, 3>& corners,
                             PlaneProjection::Axes axes) {

@@ -64,6 +64,8 @@ private:
     [[nodiscard]] bool are_in_row(std::size_t l, const std::array<std::uint32_t, 3>& corners) const;
     void add_rounded(PointId p, PlaneProjection::Axes axes);
     [[nodiscard]] Approximation nearest(PointId p) const;
+    [[nodiscard]] [[gnu::noinline]] int doubtful_turn(std::size_t l,
+                                                      const std::array<std::uint32_t, 3>& corners);
     [[nodiscard]] int exact_turn(std::span<const PointId> loop,
                                  const std::array<std::uint32_t, 3>& corners,
                                  PlaneProjection::Axes axes);
