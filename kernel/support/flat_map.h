@@ -50,7 +50,8 @@ public:
 
     /// The value stored for the key; stores `value` first if there is none. Second: inserted?
     std::pair<std::int32_t, bool> insert(const Key128& key, std::int32_t value) {
-        if (2 * (size_ + 1) > slots_.size()) grow();
+        if (2 * (size_ + 1) > slots_.size()) [[unlikely]]
+            grow();
         Slot& s = slots_[find_slot(key)];
         if (s.value >= 0) return {s.value, false};
         s = {key, value};
@@ -81,7 +82,8 @@ private:
         }
         return i;
     }
-    void grow() {
+    // Apart, so that insert() stays small enough to be compiled where it is called.
+    [[gnu::noinline]] void grow() {
         if (slots_.size() < usual_slots) {
             rehash(slots_.empty() ? first_slots : usual_slots);
         } else {
