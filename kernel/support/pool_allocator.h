@@ -61,9 +61,10 @@ public:
     template <class U>
     UnwrittenPoolAllocator(const UnwrittenPoolAllocator<U>&) noexcept {
     }  // NOLINT(google-explicit-constructor)
+    // As the standard library calls them.
     template <class U>
-    struct rebind {
-        using other = UnwrittenPoolAllocator<U>;
+    struct rebind {                               // NOLINT(readability-identifier-naming)
+        using other = UnwrittenPoolAllocator<U>;  // NOLINT(readability-identifier-naming)
     };
 
     template <class U>
