@@ -2,6 +2,8 @@
 
 #include <trisect/bsp/solid_measure.h>
 
+#include <optional>
+
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
@@ -49,29 +51,28 @@ std::optional<double> common_double(const ExactRational& least, const ExactRatio
 }  // namespace
 
 ExactRational exact_volume(const Solid& solid) {
-    if (is_surely_bounded(solid)) {
-        const auto enclosed = detail::enclosed_volume(*detail::state_of(resolved(solid)));
-        if (enclosed.least == enclosed.most) return enclosed.least;
-    }
-    return exact_volume(bounded_boundary_of(solid));
+    if (!is_surely_bounded(solid)) return exact_volume(bounded_boundary_of(solid));
+    const Solid set = resolved(solid);
+    const auto enclosed = detail::enclosed_volume(*detail::state_of(set));
+    return enclosed.least == enclosed.most ? enclosed.least : exact_volume(boundary_of(set));
 }
 
 double volume(const Solid& solid) {
-    if (is_surely_bounded(solid)) {
-        const auto enclosed = detail::enclosed_volume(*detail::state_of(resolved(solid)));
-        if (const auto value = common_double(enclosed.least, enclosed.most)) return *value;
-    }
-    return volume(bounded_boundary_of(solid));
+    if (!is_surely_bounded(solid)) return volume(bounded_boundary_of(solid));
+    const Solid set = resolved(solid);
+    const auto enclosed = detail::enclosed_volume(*detail::state_of(set));
+    if (const auto value = common_double(enclosed.least, enclosed.most)) return *value;
+    return volume(boundary_of(set));
 }
 
 Area area(const Solid& solid) {
-    if (is_surely_bounded(solid)) {
-        if (const auto a = detail::enclosed_area(*detail::state_of(resolved(solid)))) {
-            if (a->least == a->most) return {a->least.to_double(), a->least};
-            if (const auto value = common_double(a->least, a->most)) return {*value, {}};
-        }
+    if (!is_surely_bounded(solid)) return area(boundary_of(solid));
+    const Solid set = resolved(solid);
+    if (const auto a = detail::enclosed_area(*detail::state_of(set))) {
+        if (a->least == a->most) return {a->least.to_double(), a->least};
+        if (const auto value = common_double(a->least, a->most)) return {*value, {}};
     }
-    return area(boundary_of(solid));
+    return area(boundary_of(set));
 }
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const Solid& solid) {
