@@ -10,6 +10,8 @@
 #include <trisect/bsp/measure/boundary_bounds.h>
 #include <trisect/bsp/measure/enclosed_area.h>
 #include <trisect/bsp/measure/enclosed_volume.h>
+#include <trisect/bsp/measure/measure_counters.h>
+#include <trisect/kernel/counters.h>
 #include <trisect/kernel/error.h>
 
 namespace trisect {
@@ -48,31 +50,44 @@ std::optional<double> common_double(const ExactRational& least, const ExactRatio
     return value;
 }
 
+template <class Measure>
+Measure without_mesh(Measure measure) {
+    ++detail::counters_of_thread<detail::MeasureCounters>.enclosed;
+    return measure;
+}
+ExactMesh counted_boundary_of(const Solid& set) {
+    ++detail::counters_of_thread<detail::MeasureCounters>.exact;
+    return boundary_of(set);
+}
+
 }  // namespace
 
 ExactRational exact_volume(const Solid& solid) {
     if (!is_surely_bounded(solid)) return exact_volume(bounded_boundary_of(solid));
     const Solid set = resolved(solid);
     const auto enclosed = detail::enclosed_volume(*detail::state_of(set));
-    return enclosed.least == enclosed.most ? enclosed.least : exact_volume(boundary_of(set));
+    if (enclosed.least == enclosed.most) return without_mesh(enclosed.least);
+    return exact_volume(counted_boundary_of(set));
 }
 
 double volume(const Solid& solid) {
     if (!is_surely_bounded(solid)) return volume(bounded_boundary_of(solid));
     const Solid set = resolved(solid);
     const auto enclosed = detail::enclosed_volume(*detail::state_of(set));
-    if (const auto value = common_double(enclosed.least, enclosed.most)) return *value;
-    return volume(boundary_of(set));
+    if (const auto value = common_double(enclosed.least, enclosed.most))
+        return without_mesh(*value);
+    return volume(counted_boundary_of(set));
 }
 
 Area area(const Solid& solid) {
     if (!is_surely_bounded(solid)) return area(boundary_of(solid));
     const Solid set = resolved(solid);
     if (const auto a = detail::enclosed_area(*detail::state_of(set))) {
-        if (a->least == a->most) return {a->least.to_double(), a->least};
-        if (const auto value = common_double(a->least, a->most)) return {*value, {}};
+        if (a->least == a->most) return without_mesh(Area{a->least.to_double(), a->least});
+        if (const auto value = common_double(a->least, a->most))
+            return without_mesh(Area{*value, {}});
     }
-    return area(boundary_of(set));
+    return area(counted_boundary_of(set));
 }
 
 std::optional<std::array<ExactRational, 3>> exact_centroid(const Solid& solid) {

@@ -15,6 +15,8 @@
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/measure/measure_counters.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/error.h>
 
 namespace solid_measure_test {
@@ -63,6 +65,23 @@ TEST(SolidMeasure, OfResultsOnAndOffTheLattice) {
     const Solid bored =
         evaluate(box({-1, -1, 0}, {1, 1, 1}) - Solid::from_mesh(trisect::make_cylinder(0.5, 1, 7)));
     expect_measures_of_the_brep(bored);
+}
+
+// Sums over facets decide; the exact fraction of a volume and an area that may be rational take the
+// exact mesh.
+TEST(SolidMeasure, MostlyMakesNoExactMesh) {
+    const Solid ball = cut_ball();
+    const trisect::Diagnostics<trisect::detail::MeasureCounters> diagnostics;
+    (void)trisect::volume(ball);
+    (void)trisect::area(ball);
+    EXPECT_EQ(diagnostics.counters().enclosed, 2U);
+    EXPECT_EQ(diagnostics.counters().exact, 0U);
+    (void)trisect::exact_volume(ball);
+    EXPECT_EQ(diagnostics.counters().exact, 1U);
+    (void)trisect::exact_volume(box({0, 0, 0}, {1, 2, 3}));
+    (void)trisect::area(box({0, 0, 0}, {1, 2, 3}));
+    EXPECT_EQ(diagnostics.counters().enclosed, 4U);
+    EXPECT_EQ(diagnostics.counters().exact, 1U);
 }
 
 TEST(SolidMeasure, ABoundaryThatMeetsItselfIsResolved) {
