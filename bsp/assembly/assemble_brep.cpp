@@ -4,7 +4,7 @@
 //
 //   parts    (assembly_parts.cpp)   polygons of the cells with exact vertices, conforming in each
 //                                   cell; facets that nothing touched stay as they are
-//   join     (boundary_edges.cpp)   parts of one facet, then facets of one plane: cancel common
+//   join     (joining/)             parts of one facet, then facets of one plane: cancel common
 //                                   edges, drop vertices at which nothing turns
 //   loops    (face_loops.cpp)       chains of edges, holes in their faces
 //   pairing  (brep/brep_builder.h)  opposite halfedges; where four or more faces meet at an edge
@@ -20,7 +20,9 @@
 #include <trisect/brep/brep_builder.h>
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/assembly/assembly_parts.h>
-#include <trisect/bsp/assembly/parts/boundary_edges.h>
+#include <trisect/bsp/assembly/joining/join_coplanar_facets.h>
+#include <trisect/bsp/assembly/joining/join_facets.h>
+#include <trisect/bsp/assembly/joining/straight_vertices.h>
 #include <trisect/bsp/assembly/parts/boundary_vertices.h>
 #include <trisect/bsp/assembly/parts/broken_edges.h>
 #include <trisect/bsp/assembly/parts/face_loops.h>

@@ -21,6 +21,9 @@
 
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/assembly/assembly_parts.h>
+#include <trisect/bsp/assembly/joining/join_coplanar_facets.h>
+#include <trisect/bsp/assembly/joining/join_facets.h>
+#include <trisect/bsp/assembly/joining/straight_vertices.h>
 #include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/facet_cutter.h>
 #include <trisect/bsp/cells/solid_state.h>

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include <trisect/bsp/assembly/assembly_parts.h>
-#include <trisect/bsp/assembly/parts/boundary_edges.h>
+#include <trisect/bsp/assembly/joining/join_facets.h>
 #include <trisect/kernel/stop_scope.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/pool_allocator.h>

@@ -12,7 +12,6 @@
 
 #include <trisect/brep/face/rounded_polygon.h>
 #include <trisect/brep/triangulate.h>
-#include <trisect/bsp/assembly/parts/boundary_edges.h>
 #include <trisect/bsp/assembly/parts/boundary_parts.h>
 #include <trisect/bsp/assembly/parts/face_corners.h>
 #include <trisect/bsp/assembly/parts/face_loops.h>

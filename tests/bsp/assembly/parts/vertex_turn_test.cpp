@@ -14,7 +14,7 @@
 #include <trisect/brep/primitives/box.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/assembly/assembly_parts.h>
-#include <trisect/bsp/assembly/parts/boundary_edges.h>
+#include <trisect/bsp/assembly/joining/join_facets.h>
 #include <trisect/bsp/assembly/parts/vertex_turn.h>
 #include <trisect/bsp/cells/solid_state.h>
 #include <trisect/bsp/expression.h>
