@@ -8,6 +8,7 @@
 #include <trisect/bsp/evaluate/flat_formula.h>
 #include <trisect/bsp/evaluate/formula_operands.h>
 #include <trisect/bsp/evaluate/named_slots.h>
+#include <trisect/bsp/evaluate/operands_in_reach.h>
 #include <trisect/bsp/evaluate/translate.h>
 #include <trisect/bsp/expression.h>
 
@@ -81,7 +82,7 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options,
         return detail::solid_of(std::move(flat));
     }
     if (auto solid = evaluate_over_prisms(t, options, report)) return *std::move(solid);
-    return detail::evaluate_translation(t, options, report);
+    return detail::evaluate_translation(detail::with_operands_in_reach(t), options, report);
 }
 
 }  // namespace trisect

@@ -10,6 +10,9 @@
 
 #include <trisect/bsp/assembly/assembly.h>
 #include <trisect/bsp/cells/solid_state.h>
+#include <trisect/bsp/evaluate/formula_operands.h>
+#include <trisect/bsp/evaluate/named_slots.h>
+#include <trisect/bsp/evaluate/translate.h>
 #include <trisect/kernel/error.h>
 #include <trisect/kernel/stop_scope.h>
 
@@ -35,7 +38,11 @@ trisect::Solid evaluate(const std::vector<Operand>& operands, const Expression& 
     trisect::EvaluateOptions options;
     options.leaf_polygons = leaf_polygons;
     const trisect::StopScope scope({.max_work = std::uint64_t{1} << 60});  // counted by cells
-    return trisect::evaluate(engines::formula(expression, solids), options);
+    // Also operands that are out of reach.
+    return trisect::detail::evaluate_translation(
+        trisect::detail::with_named_slots(
+            trisect::detail::translate_without_constants(engines::formula(expression, solids))),
+        options, nullptr);
 }
 
 // The same mesh, corner by corner, whether facets are traced or put together from pieces.
