@@ -46,6 +46,9 @@ constexpr std::size_t cell_factor = 2;
 constexpr std::uint64_t many_pairs = 20'000;
 constexpr std::uint64_t many_pairs_of_plane = 100;
 
+// Of all pairs of facets of one plane about one in so many has a part of it in common.
+constexpr std::uint64_t pairs_of_sheet = 16;
+
 // What the threads of one search share.
 struct SharedSearch {
     const EvaluateSettings& options;
@@ -53,7 +56,7 @@ struct SharedSearch {
     MemoryBudget& memory;
     bool parallel;
     bool recognises_equal;
-    bool keeps_sides;
+    std::uint64_t most_sheets;
     const PairsCheck* check;
     Frame frame;
     std::array<FacetClip, 2> clips;
@@ -61,13 +64,14 @@ struct SharedSearch {
     bool has_planes = false;                // both lists have facets across an axis; set likewise
     std::atomic<bool> has_equal{false};     // all may stop
     std::atomic<bool> is_hopeless{false};   // all may stop as well
+    std::atomic<std::uint64_t> sheets{0};   // pairs that count for `most_sheets`
     std::atomic<bool> is_uncertain{false};  // none stops: else it would depend on which is first
     PerThread<PairFinder> finders = {};
 
     PairFinder& finder();
     // What is not as wanted ends it, since no other move of the kind is tried.
     [[nodiscard]] bool is_final() const {
-        return operands.shift.moves != nullptr || (operands.shift.growth != 0 && !keeps_sides);
+        return operands.shift.moves != nullptr || operands.shift.growth != 0;
     }
     [[nodiscard]] bool may_stop() const {
         return has_equal.load(std::memory_order_relaxed) ||
@@ -138,7 +142,7 @@ private:
     }
     void give_up() { search_.is_hopeless.store(true, std::memory_order_relaxed); }
     void look_at_plane(const PolygonRef& first, bool is_above, bool same_side);
-    void keep_side(const PolygonRef& first, bool same_side, bool is_wish);
+    void count_sheets(bool is_above, bool same_side, std::uint64_t pairs);
     // Of facets in one plane, that face the same way or not: whether just one of the two meshes
     // bounds the result there.
     [[nodiscard]] bool does_one_bound(bool same_side) const {
@@ -171,7 +175,6 @@ private:
     // Of planes in which two facets cover a part: the signs of the first one's normal, and whether
     // the second one faces the same way. A second pair with these says nothing new.
     std::vector<std::pair<std::array<int, 3>, bool>> known_planes_;
-    std::vector<std::uint8_t> kept_sides_;  // by facet of the first mesh
     std::vector<PolygonRef> polygons_;
     // Of the cell that is looked at:
     std::vector<std::uint32_t> planes_;     // across axes, by item; 0 where there is none
@@ -522,6 +525,7 @@ bool PairFinder::settle_side(std::span<const PolygonRef> first, std::span<const 
         for (const PolygonRef& b : second) {
             if (tries-- == 0) return false;
             if (coplanar_overlap(corners_of(a), corners_of(b)) != Overlap::Insides) continue;
+            count_sheets(is_above, same_side, 1 + first.size() * second.size() / pairs_of_sheet);
             look_at_plane(a, is_above, same_side);
             return true;
         }
@@ -671,6 +675,7 @@ void PairFinder::decide(LeafIndex first, LeafIndex second, const Cell& cell) {
             }
             break;
         case ShiftedPair::Kind::Coplanar: {
+            count_sheets(pair.is_above, pair.same_side, 1);
             if (is_special(0, a) && is_special(1, b) && is_pair_known(a, pair)) break;
             const Overlap overlap = coplanar_overlap(corners_of(a), corners_of(b));
             if (overlap != Overlap::None) note_special(a, b);
@@ -696,12 +701,13 @@ void PairFinder::look_at_plane(const PolygonRef& first, bool is_above, bool same
     const bool one_does = does_one_bound(same_side);
     if (search_.is_final()) {
         directions_.has_wish = directions_.has_wish || one_does;
-        if (!one_does && !is_so_now) give_up();
+        if (one_does || is_so_now) return;
+        directions_.has_sheets = true;
+        if (search_.most_sheets == 0) give_up();
         return;
     }
     bool& is_so = one_does ? directions_.is_as_wished : directions_.is_as_wanted;
     is_so = is_so && is_so_now;
-    if (search_.keeps_sides) return keep_side(first, same_side, one_does);
     std::array<int, 3> direction = normal_signs(corners_of(first));
     if (!is_known(direction, same_side)) known_planes_.emplace_back(direction, same_side);
     if (!wants_above())
@@ -712,23 +718,20 @@ void PairFinder::look_at_plane(const PolygonRef& first, bool is_above, bool same
     if (!one_does && !shift_along(list)) give_up();
 }
 
-// Each facet once for either way in which others of its plane face.
-void PairFinder::keep_side(const PolygonRef& first, bool same_side, bool is_wish) {
-    if (kept_sides_.empty()) kept_sides_.resize(first.source->facet_count());
-    const auto bit = static_cast<std::uint8_t>(same_side ? 1 : 2);
-    if ((kept_sides_[first.facet] & bit) != 0) return;
-    kept_sides_[first.facet] = static_cast<std::uint8_t>(kept_sides_[first.facet] | bit);
-    directions_.sides.push_back({first.facet, wants_above(), is_wish});
+// Each in every cell that has it, whatever is known: so all threads together count the same.
+void PairFinder::count_sheets(bool is_above, bool same_side, std::uint64_t pairs) {
+    if (search_.most_sheets == 0 || does_one_bound(same_side) || is_above == wants_above()) return;
+    if (search_.sheets.fetch_add(pairs, std::memory_order_relaxed) + pairs > search_.most_sheets)
+        give_up();
 }
 
 // Whether another pair of one plane says nothing new.
 bool PairFinder::is_pair_known(const PolygonRef& first, const ShiftedPair& pair) const {
-    if (search_.is_final())
-        return pair.is_above == wants_above() &&
-               (directions_.has_wish || !does_one_bound(pair.same_side));
-    const bool same_side = pair.same_side;
-    if (!search_.keeps_sides) return is_known(normal_signs(corners_of(first)), same_side);
-    return !kept_sides_.empty() && (kept_sides_[first.facet] & (same_side ? 1 : 2)) != 0;
+    if (search_.is_final()) {
+        if (does_one_bound(pair.same_side)) return directions_.has_wish;
+        return pair.is_above == wants_above() || directions_.has_sheets;
+    }
+    return is_known(normal_signs(corners_of(first)), pair.same_side);
 }
 
 }  // namespace
@@ -746,7 +749,7 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
                         memory_,
                         parallel_,
                         recognises_equal,
-                        keeps_sides,
+                        most_sheets,
                         check,
                         frame,
                         {FacetClip(frame, source(0).mesh()), FacetClip(frame, source(1).mesh())}};
@@ -764,14 +767,11 @@ PairSearch::Outcome PairSearch::run(Crossings& crossings, EvaluateStats& stats) 
         const Outcome& found = f.directions();
         out.wanted.insert(out.wanted.end(), found.wanted.begin(), found.wanted.end());
         out.wished.insert(out.wished.end(), found.wished.begin(), found.wished.end());
-        out.sides.insert(out.sides.end(), found.sides.begin(), found.sides.end());
         out.is_as_wanted = out.is_as_wanted && found.is_as_wanted;
         out.is_as_wished = out.is_as_wished && found.is_as_wished;
         out.has_wish = out.has_wish || found.has_wish;
+        out.has_sheets = out.has_sheets || found.has_sheets;
     });
-    std::ranges::sort(out.sides);
-    // Not std::ranges::unique: clang 14 refuses g++ 12's subrange.
-    out.sides.erase(std::unique(out.sides.begin(), out.sides.end()), out.sides.end());
     return out;
 }
 

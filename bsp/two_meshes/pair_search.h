@@ -12,7 +12,6 @@
 #include <trisect/bsp/cells/evaluate_stats.h>
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/two_meshes/conforming/conforming_meshes.h>
-#include <trisect/bsp/two_meshes/growth_about.h>
 
 namespace trisect::detail {
 
@@ -25,8 +24,8 @@ inline constexpr std::uint64_t parallel_facets = 4096;
 class PairSearch {
 public:
     struct Outcome {
-        bool is_hopeless = false;  ///< no move along the axes, or not that of corners, is as
-                                   ///< wanted; then the search ended
+        bool is_hopeless = false;  ///< no move along the axes, or not the one that was tried, is
+                                   ///< as wanted; then the search ended
         bool has_equal = false;    ///< some facet has an equal; all else is left out then
         bool is_certain = true;    ///< all pairs were decided
         /// Directions, by their signs, in which the second mesh must be moved: else both meshes
@@ -37,8 +36,8 @@ public:
         std::vector<std::array<int, 3>> wished;
         bool is_as_wanted = true;  ///< it was moved so
         bool is_as_wished = true;
-        bool has_wish = false;          ///< where corners move
-        std::vector<WantedSide> sides;  ///< by facet, where `keeps_sides`
+        bool has_wish = false;    ///< where corners move, or the mesh grows
+        bool has_sheets = false;  ///< likewise: it was not moved so, as `most_sheets` allows
     };
 
     /// `nodes` list the two meshes.
@@ -48,7 +47,9 @@ public:
 
     std::vector<TwoLists> parts;   ///< all of one list with all of the other, part after part
     bool recognises_equal = true;  ///< else they are as other facets of one plane
-    bool keeps_sides = false;      ///< instead of directions
+    /// Growth is hopeless only where more pairs of facets of one plane are moved against what is
+    /// wanted; if 0, at the first one of which both cover a part of it.
+    std::uint64_t most_sheets = 0;
     /// If not null, all that is done is to call it cell by cell; the first false makes it hopeless.
     const PairsCheck* check = nullptr;
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <trisect/brep/validate/embedding.h>
-#include <trisect/bsp/two_meshes/growth_about.h>
 #include <trisect/bsp/two_meshes/outward_moves.h>
 #include <trisect/bsp/two_meshes/shift_along.h>
 #include <trisect/kernel/number/vector3.h>
@@ -55,37 +54,45 @@ public:
 
     // Where facets of both cover a part of one plane, it takes a move that is as wanted: of the
     // whole mesh along the axes; of each corner by itself, where planes want opposite directions;
-    // or growth, where some corner cannot go as all of its facets want.
-    [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats) {
-        recognises_equal_ = recognises_equal;
-        const bool wants_opposites = are_flush_on_both_sides();
-        if (wants_opposites)
-            if (auto out = find_without_direction(stats)) return out;
+    // or growth. Where none is as wanted, assembly takes out what is left between such facets.
+    [[nodiscard]] std::optional<FoundPairs> find(const PairsOfMeshes::How& how,
+                                                 EvaluateStats& stats) {
+        recognises_equal_ = how.recognises_equal;
+        leaves_sheets_ = how.leaves_sheets;
+        if (are_flush_on_both_sides()) return find_without_direction(stats);
         bool is_certain = true;
         if (auto out = find_along_axes(stats, is_certain)) return out;
-        if (wants_opposites || !is_certain) return std::nullopt;
-        return find_without_direction(stats);
+        return is_certain ? find_without_direction(stats) : std::nullopt;
     }
 
 private:
-    // Growth about the middle takes facets that face it the wrong way, and where it serves all it
-    // costs less.
+    // Growth about the middle takes facets that face it the wrong way. Where few of them lie in
+    // planes of the first mesh it costs less than moves of corners, and what that leaves.
     [[nodiscard]] std::optional<FoundPairs> find_without_direction(EvaluateStats& stats) {
-        const bool is_faced = is_middle_faced() && !are_mostly_equal();
-        if (is_faced)
-            if (auto out = find_by_corners(stats)) return out;
-        if (auto out = find_growing(stats, true)) return out;
-        if (!is_faced)
-            if (auto out = find_by_corners(stats)) return out;
-        return find_growing(stats, false);
+        if (!is_middle_faced() || !have_walls_in_common())
+            if (auto out = find_growing(stats, leaves_sheets_ ? few_sheets() : 0)) return out;
+        if (auto out = find_by_corners(stats)) return out;
+        if (!leaves_sheets_) return std::nullopt;
+        return find_growing(stats, many_sheets * all_near());
     }
 
-    // Then few pairs are left, and moves cost more than they do.
-    [[nodiscard]] bool are_mostly_equal() const {
-        if (!recognises_equal_) return false;
-        const EqualFacets equal(two_.meshes, near_, {operands_.operands[0], operands_.operands[1]});
-        const auto own = std::ranges::count(equal.fates[1], Fate::Own);
-        return 2 * static_cast<std::size_t>(own) < equal.fates[1].size();
+    [[nodiscard]] std::size_t all_near() const { return near_[0].size() + near_[1].size(); }
+    [[nodiscard]] std::uint64_t few_sheets() const {
+        constexpr std::uint64_t least = 256;
+        return std::max<std::uint64_t>(least, all_near() / part_of_few);
+    }
+    static constexpr std::size_t part_of_few = 64;
+    static constexpr std::uint64_t many_sheets = 64;  // by facet; then cells are as fast
+
+    // Meshes of which some facets are equal mostly have more in common, of which growth would take
+    // many the wrong way. Where nearly all are equal few pairs are left.
+    [[nodiscard]] bool have_walls_in_common() const {
+        const EqualFacets equal = equal_facets();
+        const std::vector<Fate>& fates = equal.fates[1];
+        const auto own = static_cast<std::size_t>(std::ranges::count(fates, Fate::Own));
+        const std::size_t left_out = fates.size() - own;
+        return part_of_few * left_out > fates.size() &&
+               !(recognises_equal_ && 2 * own < fates.size());
     }
 
     // Whether more than a few facets of the second mesh face the middle, by a sample.
@@ -110,7 +117,7 @@ private:
     // Nothing where no direction is as wanted.
     [[nodiscard]] std::optional<FoundPairs> find_along_axes(EvaluateStats& stats,
                                                             bool& is_certain) {
-        start(false);
+        start();
         FoundPairs out;
         InfinitesimalShift shift = first_shift();
         out.has_first_move = true;
@@ -134,48 +141,37 @@ private:
         return std::nullopt;
     }
 
-    // The second mesh grows or shrinks about the middle of what both have in common, or where that
-    // is not as wanted about another point.
-    [[nodiscard]] std::optional<FoundPairs> find_growing(EvaluateStats& stats, bool about_middle) {
-        start(!about_middle);
+    // The second mesh grows or shrinks about the middle of what both have in common, which leaves
+    // it as free of contacts with itself as it is.
+    [[nodiscard]] std::optional<FoundPairs> find_growing(EvaluateStats& stats,
+                                                         std::uint64_t most_sheets) {
+        start();
+        search_.most_sheets = most_sheets;
         FoundPairs out;
-        InfinitesimalShift shift = first_growth();
-        for (int turn = 0; turn < 3; ++turn) {
-            const PairSearch::Outcome outcome = search(out, shift);
-            if (outcome.has_equal) continue;
-            if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
-            out.shares_facets = out.shares_facets || outcome.has_wish ||
-                                std::ranges::any_of(outcome.sides, &WantedSide::is_wish);
-            if (outcome.is_as_wanted) return finish(out, stats);
-            const auto next = growth_about(*two_.meshes[0], outcome.sides);
-            if (!next) return std::nullopt;
-            shift = *next;
-        }
-        return std::nullopt;
+        const PairSearch::Outcome outcome = search_without_equal(out, first_growth());
+        if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
+        note_shared(outcome, out);
+        return finish(out, stats);
     }
 
     // Each corner of the second mesh moves by itself. What is wanted of its facets is outwards, or
     // inwards, of all of them.
     [[nodiscard]] std::optional<FoundPairs> find_by_corners(EvaluateStats& stats) {
         const LatticeMesh& mesh = *two_.meshes[1];
-        start(false);
+        start();
         const auto& operands = operands_.operands;
         const bool is_difference = operands[0].inside_above != operands[1].inside_above;
         FoundPairs out;
         moves_ = outward_moves(mesh, near_[1], is_difference != operands[0].is_open_below());
         InfinitesimalShift shift;
         shift.moves = moves_.get();
-        for (int turn = 0; turn < 2; ++turn) {
-            const PairSearch::Outcome outcome = search(out, shift);
-            if (outcome.has_equal) continue;
-            if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
-            const auto special = special_of_second(out.crossings);
-            if (!special.empty() && !are_embedded(mesh, special)) return std::nullopt;
-            out.shares_facets = out.shares_facets || outcome.has_wish;
-            out.crossings.moves = moves_;
-            return finish(out, stats);
-        }
-        return std::nullopt;
+        const PairSearch::Outcome outcome = search_without_equal(out, shift);
+        if (outcome.is_hopeless || !outcome.is_certain) return std::nullopt;
+        const auto special = special_of_second(out.crossings);
+        if (!special.empty() && !are_embedded(mesh, special)) return std::nullopt;
+        note_shared(outcome, out);
+        out.crossings.moves = moves_;
+        return finish(out, stats);
     }
 
     // Nothing depends on the moves of others: they meet the first mesh as they do without. Where
@@ -190,9 +186,14 @@ private:
         return out;
     }
 
-    void start(bool keeps_sides) {
+    static void note_shared(const PairSearch::Outcome& outcome, FoundPairs& out) {
+        out.has_sheets = outcome.has_sheets;
+        out.shares_facets = out.shares_facets || outcome.has_wish || outcome.has_sheets;
+    }
+
+    void start() {
         search_.recognises_equal = recognises_equal_;
-        search_.keeps_sides = keeps_sides;
+        search_.most_sheets = 0;
         search_.parts = {near_};
     }
 
@@ -203,6 +204,24 @@ private:
         PairSearch::Outcome outcome = search_.run(out.crossings, found_);
         if (outcome.has_equal) leave_out_equal(out);
         return outcome;
+    }
+
+    // What is hopeless may end before equal facets are found, or after, as threads happen to run:
+    // they are left out either way.
+    [[nodiscard]] PairSearch::Outcome search_without_equal(FoundPairs& out,
+                                                           const InfinitesimalShift& shift) {
+        PairSearch::Outcome outcome = search(out, shift);
+        if (!outcome.has_equal && outcome.is_hopeless && search_.recognises_equal) {
+            const EqualFacets equal = equal_facets();
+            if (std::ranges::count(equal.fates[1], Fate::Own) != std::ssize(equal.fates[1]))
+                leave_out_equal(out);
+            outcome.has_equal = out.equal.has_value();
+        }
+        if (outcome.has_equal) outcome = search(out, shift);
+        return outcome;
+    }
+    [[nodiscard]] EqualFacets equal_facets() const {
+        return {two_.meshes, near_, {operands_.operands[0], operands_.operands[1]}};
     }
 
     [[nodiscard]] InfinitesimalShift first_growth() const {
@@ -260,6 +279,7 @@ private:
     PairSearch search_;
     EvaluateStats found_;  // of the last search
     bool recognises_equal_ = true;
+    bool leaves_sheets_ = true;
     std::shared_ptr<const CornerMoves> moves_;
 };
 
@@ -270,8 +290,8 @@ PairsOfMeshes::PairsOfMeshes(const TwoMeshes& two, const TwoLists& near,
 
 PairsOfMeshes::~PairsOfMeshes() = default;
 
-std::optional<FoundPairs> PairsOfMeshes::find(bool recognises_equal, EvaluateStats& stats) {
-    return search_->find(recognises_equal, stats);
+std::optional<FoundPairs> PairsOfMeshes::find(const How& how, EvaluateStats& stats) {
+    return search_->find(how, stats);
 }
 
 }  // namespace trisect::detail

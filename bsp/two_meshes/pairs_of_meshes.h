@@ -20,6 +20,7 @@ struct FoundPairs {
     Crossings crossings;
     std::optional<EqualFacets> equal;
     bool shares_facets = false;  ///< a facet bounds the result for both meshes
+    bool has_sheets = false;     ///< no move was as wanted (sheets.h)
     bool is_general = false;     ///< all pairs are in general position
     /// The first move was as wanted and as wished. What one operation wants another one with the
     /// same value of the first mesh wishes: their first move is the same, and as they wish.
@@ -40,9 +41,12 @@ public:
     PairsOfMeshes& operator=(const PairsOfMeshes&) = delete;
     ~PairsOfMeshes();
 
-    /// Arranged. Nothing when a pair cannot be decided. `recognises_equal`: facets that both meshes
-    /// have are recognised; else they are as others of one plane.
-    [[nodiscard]] std::optional<FoundPairs> find(bool recognises_equal, EvaluateStats& stats);
+    struct How {
+        bool recognises_equal = true;  ///< facets of both; else they are as others of one plane
+        bool leaves_sheets = true;     ///< else nothing where no move is as wanted
+    };
+    /// Arranged. Nothing when a pair cannot be decided.
+    [[nodiscard]] std::optional<FoundPairs> find(const How& how, EvaluateStats& stats);
 
 private:
     class Search;

@@ -101,6 +101,7 @@ public:
     [[nodiscard]] std::optional<std::vector<UncrossedFacets>> find(Crossings& crossings,
                                                                    EvaluateStats& stats) {
         const bool is_first = std::exchange(is_first_, false);
+        may_have_sheets_ = false;
         if (!both_) {
             times_shared_ += is_first ? 0 : 1;
             return keep(facets_apart(two_, solids_, crossings), crossings, stats);
@@ -121,7 +122,7 @@ public:
         for (const bool recognises_equal : {true, false}) {
             EvaluateStats found;
             last_.reset();
-            std::optional<FoundPairs> of_pairs = pairs.find(recognises_equal, found);
+            std::optional<FoundPairs> of_pairs = pairs.find({recognises_equal, !is_part_}, found);
             if (!of_pairs) return std::nullopt;
             last_.emplace(
                 Last{*std::move(of_pairs), {two_, *both_, near_, solids_, parallel_}, crossings});
@@ -132,6 +133,7 @@ public:
             stats += found;
             last_->found.has_first_move = last_->found.has_first_move && recognises_equal;
             shares_facets_ = last_->found.shares_facets;
+            may_have_sheets_ = last_->found.has_sheets;
             give(crossings);
             return keep(*std::move(facets), crossings, stats);
         }
@@ -157,6 +159,8 @@ public:
 
     // Whether some facet bounds the result for both meshes, which cover it from opposite sides.
     [[nodiscard]] bool shares_facets() const { return shares_facets_; }
+    // Whether some do that would have to be moved out of each other.
+    [[nodiscard]] bool may_have_sheets() const { return may_have_sheets_; }
 
 private:
     [[nodiscard]] std::uint32_t threads() const { return threads_if(parallel_); }
@@ -256,6 +260,7 @@ private:
     bool is_first_ = true;
     bool ends_with_next_ = false;
     bool shares_facets_ = false;
+    bool may_have_sheets_ = false;
 };
 
 // The operations that a formula is the sum of, without a part of space in common: an exclusive or
@@ -288,6 +293,7 @@ std::optional<UndividedMeshes> find_parts(std::span<const Residual::Ref> parts,
     crossings.has_other_sides = are_two;
     UndividedMeshes out{*std::move(uncrossed), nullptr, nullptr};
     out.equal_corners = search.equal_corners();
+    out.may_have_sheets = search.may_have_sheets();
     if (are_two) {
         if (search.shares_facets()) return std::nullopt;
         if (is_last) search.end_with_next();

@@ -11,8 +11,10 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include <trisect/brep/primitives/box.h>
 #include <trisect/brep/primitives/prism.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/primitives/torus.h>
@@ -270,6 +272,28 @@ PolygonMesh half_ball(bool upper, std::uint32_t middle) {
         if (i != middle && j != middle) add(middle, j, i);
     }
     return mesh;
+}
+
+// A lower half and an upper one that lie across each other: in the middle a face looks up and
+// another one down, and no move of their common corner takes both outwards.
+Solid crossed_halves(double x, double y) {
+    const Expression lower = solid(trisect::make_box({x - 2, y - 2, -2}, {x, y + 2, 0}));
+    const Expression upper = solid(trisect::make_box({x - 2, y - 2, 0}, {x + 2, y, 2}));
+    return solid(evaluate(lower | upper).to_mesh());
+}
+
+TEST(SpecialPosition, MeshesThatNoMoveServes) {
+    const Solid a = crossed_halves(0, 0);
+    const Solid b = crossed_halves(0.5, 0.5);
+    EXPECT_GT(expect_as_divided(a, b, Formulas::All, Triangles::MayDiffer), 0);
+    const auto may_have_sheets = [](const Expression& e) {
+        return std::get<trisect::detail::UndividedMeshes>(
+                   trisect::detail::state_of(trisect::evaluate(e))->form)
+            .may_have_sheets;
+    };
+    EXPECT_TRUE(may_have_sheets(Expression(a) - b));
+    EXPECT_TRUE(may_have_sheets(Expression(b) - a));
+    EXPECT_FALSE(may_have_sheets(Expression(a) | b));
 }
 
 TEST(SpecialPosition, ExclusiveOrs) {
