@@ -35,45 +35,45 @@ int left_of(const Expression& e) {
 
 class OperandsInReachOfBoxes : public ::testing::Test {
 protected:
-    Expression part = box_at({0, 0, 0}, 2);
-    Expression tool = box_at({1, 1, 1});
-    Expression beside = box_at({5, 0, 0}, 1, -7);
-    Expression far = box_at({-9, 20, 3});
+    Expression part_ = box_at({0, 0, 0}, 2);
+    Expression tool_ = box_at({1, 1, 1});
+    Expression beside_ = box_at({5, 0, 0}, 1, -7);
+    Expression far_ = box_at({-9, 20, 3});
 };
 
 TEST_F(OperandsInReachOfBoxes, ToolsBesideAPart) {
-    EXPECT_EQ(left_of(part - tool - beside - far), 2);
-    EXPECT_EQ(left_of(part - (tool | beside | far)), 2);
-    EXPECT_EQ(left_of(part - beside - far), 1);
-    EXPECT_EQ(left_of(~(part - (tool | beside))), 2);
-    EXPECT_EQ(left_of(~part | tool | beside), 2);
+    EXPECT_EQ(left_of(part_ - tool_ - beside_ - far_), 2);
+    EXPECT_EQ(left_of(part_ - (tool_ | beside_ | far_)), 2);
+    EXPECT_EQ(left_of(part_ - beside_ - far_), 1);
+    EXPECT_EQ(left_of(~(part_ - (tool_ | beside_))), 2);
+    EXPECT_EQ(left_of(~part_ | tool_ | beside_), 2);
 }
 
 TEST_F(OperandsInReachOfBoxes, NothingInCommon) {
-    EXPECT_EQ(left_of(part & beside & far), 0);
-    EXPECT_EQ(left_of(~(part & beside & tool)), 0);
-    EXPECT_TRUE(evaluate(part & beside & far).is_empty());
-    EXPECT_TRUE(evaluate(~(part & beside & far)).is_whole_space());
+    EXPECT_EQ(left_of(part_ & beside_ & far_), 0);
+    EXPECT_EQ(left_of(~(part_ & beside_ & tool_)), 0);
+    EXPECT_TRUE(evaluate(part_ & beside_ & far_).is_empty());
+    EXPECT_TRUE(evaluate(~(part_ & beside_ & far_)).is_whole_space());
 }
 
 TEST_F(OperandsInReachOfBoxes, TermsOfTerms) {
-    EXPECT_EQ(left_of((part & beside) | (part & tool) | far), 3);
-    EXPECT_EQ(left_of((part - beside) ^ (tool & far) ^ far), 2);
-    EXPECT_EQ(left_of((part | beside) - tool), 3);
+    EXPECT_EQ(left_of((part_ & beside_) | (part_ & tool_) | far_), 3);
+    EXPECT_EQ(left_of((part_ - beside_) ^ (tool_ & far_) ^ far_), 2);
+    EXPECT_EQ(left_of((part_ | beside_) - tool_), 3);
     // What is named twice stays where it is in reach once.
-    EXPECT_EQ(left_of((part - beside) | (beside - tool)), 2);
+    EXPECT_EQ(left_of((part_ - beside_) | (beside_ - tool_)), 2);
 }
 
 TEST_F(OperandsInReachOfBoxes, AllStayInUnions) {
-    EXPECT_EQ(left_of(part | beside | far), 3);
-    EXPECT_EQ(left_of(part ^ beside ^ far), 3);
-    EXPECT_EQ(left_of(part - beside), 2);  // of two each rule finds out by itself
+    EXPECT_EQ(left_of(part_ | beside_ | far_), 3);
+    EXPECT_EQ(left_of(part_ ^ beside_ ^ far_), 3);
+    EXPECT_EQ(left_of(part_ - beside_), 2);  // of two each rule finds out by itself
 }
 
 // Boxes that end where others begin are not beside each other.
 TEST_F(OperandsInReachOfBoxes, ThoseThatTouchStay) {
     const Expression touching = box_at({2, 0, 0});
-    EXPECT_EQ(left_of(part - tool - touching), 3);
+    EXPECT_EQ(left_of(part_ - tool_ - touching), 3);
 }
 
 Expression random_formula(std::mt19937_64& random, const std::vector<Solid>& solids, int depth) {
