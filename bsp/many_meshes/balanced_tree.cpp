@@ -222,31 +222,44 @@ BalancedTree::Pair BalancedTree::both(std::size_t facets, EvaluateStats& stats,
     return out;
 }
 
-// What is above comes from the store of the thread that made it. What is below stays where it
-// is: a thread that waits makes other parts of the tree behind it, and takes them out.
+// What is above comes from the store of the thread that made it, unless it lies behind what is below
+// already: mostly no other thread is free. What is below stays where it is: a thread that waits
+// makes other parts of the tree behind it, and takes them out.
 template <class Below, class Above>
 BalancedTree::Pair BalancedTree::both_in_parallel(const Below& below_by,
                                                   const Above& above_by) const {
     std::optional<Solid> below;
-    std::optional<std::pair<SettledParts, Solid>> above;
+    std::optional<Solid> above;
+    std::optional<SettledParts> taken_out;  // what is above, from elsewhere
     FirstFailure failure;
+    const auto make_above = [&](Worker& w, bool in_place) {
+        above = or_nothing(w.common, above_by);
+        if (above && !in_place) taken_out = w.common.store().take_out(*above);
+    };
     fork_join(
         [&] {
-            failure.guard(0, [&] {
-                const std::optional<Solid> made = or_nothing(above_by);
-                if (made) above.emplace(common().store().take_out(*made), *made);
-            });
+            Worker& w = worker();
+            const void* const waits_in = std::exchange(w.waits_in, nullptr);
+            failure.guard(0, [&] { make_above(w, waits_in == &failure); });
+            w.waits_in = waits_in;
         },
-        [&] { failure.guard(1, [&] { below = or_nothing(below_by); }); });
+        [&] {
+            Worker& w = worker();
+            failure.guard(1, [&] { below = or_nothing(w.common, below_by); });
+            w.waits_in = below ? &failure : nullptr;
+        });
+    worker().waits_in = nullptr;
     failure.rethrow();
     if (!below || !above) return {};
-    return {below, common().store().put(std::move(above->first), above->second)};
+    if (taken_out) above = common().store().put(*std::move(taken_out), *above);
+    return {below, above};
 }
 
 // Without leaving anything of what failed in the store, where others may follow.
 template <class By>
-std::optional<OutlineStore::Solid> BalancedTree::or_nothing(const By& by) const {
-    OutlineStore& store = common().store();
+std::optional<OutlineStore::Solid> BalancedTree::or_nothing(CommonPart& common,
+                                                            const By& by) const {
+    OutlineStore& store = common.store();
     const Solid before = store.empty_solid(true);
     try {
         std::optional<Solid> out = by();
@@ -268,8 +281,8 @@ std::optional<OutlineStore::Solid> BalancedTree::common_of(std::size_t facets, E
 }
 
 // Of this thread.
-CommonPart& BalancedTree::common() const {
-    return common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); });
+BalancedTree::Worker& BalancedTree::worker() const {
+    return workers_.local([&] { return std::make_unique<Worker>(meshes_, options_); });
 }
 
 std::size_t BalancedTree::facets_of_terms(Terms terms) const {

@@ -37,7 +37,7 @@ public:
     /// Of all so far; in no order.
     template <class Each>
     void for_each_special(const Each& each) const {
-        common_.for_each([&](const CommonPart& c) { each(c.special()); });
+        workers_.for_each([&](const Worker& w) { each(w.common.special()); });
     }
 
 private:
@@ -78,12 +78,22 @@ private:
     template <class Below, class Above>
     [[nodiscard]] Pair both_in_parallel(const Below& below_by, const Above& above_by) const;
     template <class By>
-    [[nodiscard]] std::optional<Solid> or_nothing(const By& by) const;
+    [[nodiscard]] std::optional<Solid> or_nothing(CommonPart& common, const By& by) const;
     template <class Below, class Above>
     [[nodiscard]] std::optional<Solid> common_of(std::size_t facets, EvaluateStats& stats,
                                                  const Below& below_by,
                                                  const Above& above_by) const;
-    [[nodiscard]] CommonPart& common() const;
+    // What a thread works with.
+    struct Worker {
+        Worker(const ManyMeshes& meshes, const EvaluateSettings& options)
+            : common(meshes, options) {}
+        CommonPart common;
+        // What is above and below of which it has made what is below: that is the last solid of its
+        // store while it waits for the rest, and does nothing else.
+        const void* waits_in = nullptr;
+    };
+    [[nodiscard]] Worker& worker() const;
+    [[nodiscard]] CommonPart& common() const { return worker().common; }
 
     [[nodiscard]] std::size_t facets_of_terms(Terms terms) const;
     [[nodiscard]] std::size_t facets_of(Slots slots) const;
@@ -93,7 +103,7 @@ private:
     bool parallel_;
     std::size_t least_in_parallel_;  // facets
     OperandOrder order_;
-    mutable PerThread<CommonPart> common_;
+    mutable PerThread<Worker> workers_;
 };
 
 }  // namespace trisect::detail
