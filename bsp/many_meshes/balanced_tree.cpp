@@ -153,7 +153,7 @@ std::optional<OutlineStore::Solid> BalancedTree::of_boundary_and_neighbours(
     if (!neighbours) return std::nullopt;
     neighbours->open_far_out = neighbours->open_far_out != complements;
     const Solid near = beside.take(*neighbours);
-    return common().of(boundary, near, stats, beside.known());
+    return common().of(boundary, near, stats, {beside.known(), threads});
 }
 
 // Of operands in the order of space, or of their complements, each of which leaves open what is
@@ -277,7 +277,9 @@ std::optional<OutlineStore::Solid> BalancedTree::common_of(std::size_t facets, E
                                                            const Above& above_by) const {
     const auto [below, above] = both(facets, stats, below_by, above_by);
     if (!below || !above) return std::nullopt;
-    return common().of(*below, *above, stats);
+    // Most others wait for this one.
+    const bool is_alone = parallel_ && facets > meshes_.facet_count() / 2;
+    return common().of(*below, *above, stats, {{}, is_alone ? 0U : 1U});
 }
 
 // Of this thread.

@@ -27,12 +27,17 @@
 #include <trisect/bsp/many_meshes/stops_in_order.h>
 #include <trisect/bsp/many_meshes/vertex_sides.h>
 #include <trisect/kernel/support/flat_map.h>
+#include <trisect/kernel/support/parallel_parts.h>
+#include <trisect/kernel/support/per_thread.h>
 
 namespace trisect::detail {
 
 namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
+
+// Segments of fewer pairs are found on one thread.
+constexpr std::size_t least_pairs_in_parts = 4096;
 
 // Clearing writes all of it, which is much after a large one: then a small one is taken anew.
 void clear(FlatMap& map) {
@@ -60,9 +65,10 @@ public:
           segments_(meshes, exact_) {}
 
     [[nodiscard]] std::optional<Solid> of(const Solid& first, const Solid& second,
-                                          EvaluateStats& stats, Known known) {
+                                          EvaluateStats& stats, const How& how) {
         start(first, second);
-        known_ = known;
+        known_ = how.known;
+        threads_ = how.threads;
         first_known_ = second.vertices;
         if (!find_cuts(stats)) return std::nullopt;
         stops_.sort(store_.edges().size());
@@ -72,7 +78,7 @@ public:
         }
         Solid out = keep(first, second);
         // Where sides were known beforehand nothing is compared any more.
-        if (known.empty()) store_.tidy(out);
+        if (known_.empty()) store_.tidy(out);
         return out;
     }
     [[nodiscard]] OutlineStore& store() {
@@ -109,6 +115,8 @@ private:
     }
     [[nodiscard]] bool find_cuts(EvaluateStats& stats);
     void reserve_for(std::size_t pairs);
+    [[nodiscard]] bool add_cuts_of(std::span<const CrossedFacets> pairs);
+    void add_cuts(const CrossedFacets& pair, std::span<const CommonSegment> segments);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
                  const EdgeOrigin& line);
     [[nodiscard]] std::uint32_t vertex_at(const CommonSegment::End& end,
@@ -138,6 +146,7 @@ private:
     [[nodiscard]] bool is_all_open(const Facet& f) const;
     [[nodiscard]] std::uint32_t add_edges_of_cut(std::size_t solid, std::uint32_t place,
                                                  const Facet& facet);
+    [[nodiscard]] std::span<Cut> add_cuts_from(std::uint32_t vertex, std::span<Cut> cuts);
     [[nodiscard]] OutlineBox box_of_edges(std::uint32_t first) const;
     [[nodiscard]] std::uint32_t kept_made(std::uint32_t v);
     // Of a vertex of a facet that is near.
@@ -164,6 +173,7 @@ private:
     std::array<std::size_t, 2> near_count_{};        // of these
     std::array<Buckets<Cut>, 2> cuts_;               // by place
     VertexSides sides_;  // of vertices of facets that are near: of the other solid
+    std::uint32_t threads_ = 1;
     Known known_;
     std::size_t first_known_ = 0;  // that vertex of the store
     PoolVector<std::uint32_t> kept_made_;
@@ -213,16 +223,70 @@ void CommonPart::Steps::reserve_for(std::size_t pairs) {
 }
 
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
-    if (!finder_.find(solids_[0], solids_[1], {near(0), near(1)}, stats)) return false;
-    reserve_for(finder_.pairs().size());
-    for (const CrossedFacets& c : finder_.pairs()) {
+    if (!finder_.find(solids_[0], solids_[1], {near(0), near(1)}, threads_, stats)) return false;
+    const std::span<const CrossedFacets> pairs = finder_.pairs();
+    reserve_for(pairs.size());
+    if (threads_ != 1 && pairs.size() >= least_pairs_in_parts) return add_cuts_of(pairs);
+    for (const CrossedFacets& c : pairs) {
         if (!segments_.find(c.places, c.crossing)) return false;
-        if (segments_.segments().empty()) continue;
-        const EdgeOrigin line = EdgeOrigin::of_line(store_.lines().size());
-        store_.lines().push_back(c.crossing);
-        for (const CommonSegment& s : segments_.segments()) add_cut(c.places, s, line);
+        add_cuts(c, segments_.segments());
     }
     return true;
+}
+
+// Segments are found on several threads, and added in the order of their pairs.
+bool CommonPart::Steps::add_cuts_of(std::span<const CrossedFacets> pairs) {
+    struct Found {
+        PoolVector<CommonSegment> segments;
+        PoolVector<std::uint32_t> counts;  // by pair
+        bool is_known = true;
+    };
+    struct Finder {
+        explicit Finder(const ManyMeshes& meshes)
+            : special(meshes.facet_count()), exact(meshes, special), segments(meshes, exact) {}
+        SpecialPosition special;
+        ShiftedPoints exact;
+        CommonSegments segments;
+    };
+    const ParallelParts parts(pairs.size(), threads_, least_pairs_in_parts / 4);
+    std::vector<Found> found(parts.count());
+    PerThread<Finder> finders;
+    parts.for_each([&](std::size_t part, std::size_t begin, std::size_t end) {
+        Finder& finder = finders.local([&] {
+            auto made = std::make_unique<Finder>(meshes_);
+            made->segments.start(solids_[0], solids_[1]);
+            return made;
+        });
+        Found& here = found[part];
+        here.segments.reserve(end - begin);
+        here.counts.reserve(end - begin);
+        for (const CrossedFacets& c : pairs.subspan(begin, end - begin)) {
+            here.is_known = finder.segments.find(c.places, c.crossing);
+            if (!here.is_known) return;
+            const auto segments = finder.segments.segments();
+            here.segments.insert(here.segments.end(), segments.begin(), segments.end());
+            here.counts.push_back(static_cast<std::uint32_t>(segments.size()));
+        }
+    });
+    finders.for_each([&](const Finder& f) { special_.add(f.special); });
+    if (!std::ranges::all_of(found, &Found::is_known)) return false;
+    auto pair = pairs.begin();
+    for (const Found& f : found) {
+        std::span<const CommonSegment> segments(f.segments);
+        for (const std::uint32_t count : f.counts) {
+            add_cuts(*pair++, segments.first(count));
+            segments = segments.subspan(count);
+        }
+    }
+    return true;
+}
+
+void CommonPart::Steps::add_cuts(const CrossedFacets& pair,
+                                 std::span<const CommonSegment> segments) {
+    if (segments.empty()) return;
+    const EdgeOrigin line = EdgeOrigin::of_line(store_.lines().size());
+    store_.lines().push_back(pair.crossing);
+    for (const CommonSegment& s : segments) add_cut(pair.places, s, line);
 }
 
 // On the first facet what lies below the second one is to the left of the crossing, on the second
@@ -426,11 +490,13 @@ bool CommonPart::Steps::is_all_open(const Facet& f) const {
     return true;
 }
 
-// The first of them.
+// The first of them. Behind a part of an edge come the crossings that go on from its end: of edges
+// one behind the other each vertex is looked at once.
 std::uint32_t CommonPart::Steps::add_edges_of_cut(std::size_t solid, std::uint32_t place,
                                                   const Facet& facet) {
     PoolVector<OutlinedSolid::Edge>& edges = store_.edges();
     const auto first = static_cast<std::uint32_t>(edges.size());
+    std::span<Cut> cuts = cuts_[solid].of(place);
     for (std::uint32_t e = facet.first; e < facet.first + facet.count; ++e) {
         const OutlinedSolid::Edge edge = edges[e];
         bool open = is_open(edge.from);
@@ -438,14 +504,29 @@ std::uint32_t CommonPart::Steps::add_edges_of_cut(std::size_t solid, std::uint32
         for (const Stop& stop : stops_.of(e)) {
             const std::uint32_t next = kept_made(stop.vertex);
             if (open) edges.push_back({at, next, edge.origin});
+            if (open && !stop.opens) cuts = add_cuts_from(stop.vertex, cuts);
             at = next;
             open = stop.opens;
         }
         if (open) edges.push_back({at, edge.to, edge.origin});
     }
-    for (const Cut& c : cuts_[solid].of(place))
-        edges.push_back({kept_made(c.from), kept_made(c.to), c.line});
+    while (!cuts.empty()) cuts = add_cuts_from(cuts.front().from, cuts);
     return first;
+}
+
+// One behind the other, as far as they go on from there. Returns the others.
+std::span<CommonPart::Steps::Cut> CommonPart::Steps::add_cuts_from(std::uint32_t vertex,
+                                                                   std::span<Cut> cuts) {
+    constexpr std::size_t most_looked_at = 32;
+    for (;;) {
+        const std::span<Cut> some = cuts.first(std::min(cuts.size(), most_looked_at));
+        const auto next = std::ranges::find(some, vertex, &Cut::from);
+        if (next == some.end()) return cuts;
+        store_.edges().push_back({kept_made(next->from), kept_made(next->to), next->line});
+        vertex = next->to;
+        *next = cuts.front();
+        cuts = cuts.subspan(1);
+    }
 }
 
 // False where nothing is left of it.
@@ -522,9 +603,9 @@ bool CommonPart::is_open_at_corner(const OutlineVertex& corner, const OutlinedSo
 OutlineStore& CommonPart::store() { return steps_->store(); }
 
 std::optional<OutlineStore::Solid> CommonPart::of(const Solid& first, const Solid& second,
-                                                  EvaluateStats& stats, Known known) {
+                                                  EvaluateStats& stats, const How& how) {
     if (first.box.meets(second.box)) {
-        std::optional<Solid> out = steps_->of(first, second, stats, known);
+        std::optional<Solid> out = steps_->of(first, second, stats, how);
         if (out) out->united = {};
         return out;
     }

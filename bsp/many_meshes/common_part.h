@@ -3,6 +3,7 @@
 // CommonPart: the intersection of two outlined solids.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,12 +27,17 @@ public:
     [[nodiscard]] OutlineStore& store();
     /// What the last two solids of the store both leave open, which takes their place. Nothing
     /// where sides are not known. O(n log n) where facets meet few others.
-    /// `known`: by vertex of the second one, the first one's side on which it is, as far as that is
-    /// known beforehand; empty where nothing is.
     using Solid = OutlineStore::Solid;
     using Known = std::span<const VertexSides::Side>;
+    struct How {
+        /// By vertex of the second one, the first one's side on which it is, as far as that is
+        /// known beforehand; empty where nothing is.
+        Known known;
+        /// 1, or 0 for all, where they have nothing else to do.
+        std::uint32_t threads = 1;
+    };
     [[nodiscard]] std::optional<Solid> of(const Solid& first, const Solid& second,
-                                          EvaluateStats& stats, Known known = {});
+                                          EvaluateStats& stats, const How& how);
     /// Whether the corner of an operand is in a set. \pre it is on no boundary of the set. O(n)
     [[nodiscard]] bool is_open_at_corner(const OutlineVertex& corner,
                                          const OutlinedSolid& solid) const;

@@ -31,6 +31,10 @@ constexpr double worthy_part_of_pairs = 0.75;
 // So many are listed by cells of a grid first, which are solved by themselves.
 constexpr std::size_t least_in_grid = std::size_t{1} << 15;
 
+// Of so many cells are solved on several threads, as soon as they have this part of them.
+constexpr std::size_t least_items_in_parts = 4096;
+constexpr std::size_t parts_of_many = 16;
+
 constexpr std::array<std::size_t, 2> second_first{1, 0};
 
 // How many there are of each kind, by the bits of each of them.
@@ -103,7 +107,8 @@ private:
 }  // namespace
 
 bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& second,
-                               const Places& near, EvaluateStats& stats) {
+                               const Places& near, std::uint32_t threads,
+                               EvaluateStats& stats) {
     solids_ = {&first, &second};
     stats_ = &stats;
     found_.clear();
@@ -126,12 +131,21 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
             *next++ = Item(place_.box(b.lo, b.hi), f);
         }
     }
-    return solve(cell);
+    return threads != 1 && cell.count() >= least_items_in_parts ? solve_in_parts(cell)
+                                                                : solve(cell);
 }
 
-// On threads, each part of the cells by a finder of its own; what is found is the same, in the same
-// order.
 bool CrossedFacetsFinder::find_in_cells(const Places& near) {
+    const PlacesInCells cells(solids_, near, place_);
+    return find_on_threads(cells.cell_count(), [&](CrossedFacetsFinder& finder, std::size_t c) {
+        return finder.solve_cell(cells, c);
+    });
+}
+
+// Each part of the cells by a finder of its own, by solve(finder, cell); what is found is the same,
+// in the same order.
+template <class Solve>
+bool CrossedFacetsFinder::find_on_threads(std::size_t count, const Solve& solve) {
     struct Part {
         Part(const ManyMeshes& meshes, const EvaluateSettings& options)
             : special(meshes.facet_count()), finder(meshes, options, special) {}
@@ -140,8 +154,7 @@ bool CrossedFacetsFinder::find_in_cells(const Places& near) {
         EvaluateStats stats;
         bool is_solved = true;
     };
-    const PlacesInCells cells(solids_, near, place_);
-    const ParallelParts ranges(cells.cell_count(), options_.threads == 1 ? 1 : 0, 1);
+    const ParallelParts ranges(count, options_.threads == 1 ? 1 : 0, 1);
     std::vector<std::unique_ptr<Part>> parts(ranges.count());
     ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
         parts[range] = std::make_unique<Part>(meshes_, options_);
@@ -151,12 +164,12 @@ bool CrossedFacetsFinder::find_in_cells(const Places& near) {
         part.finder.stats_ = &part.stats;
         part.finder.is_of_many_ = true;
         for (std::size_t c = begin; c < end && part.is_solved; ++c)
-            part.is_solved = part.finder.solve_cell(cells, c);
+            part.is_solved = solve(part.finder, c);
         part.finder.items_ = {};
     });
-    std::size_t count = 0;
-    for (const auto& p : parts) count += p->finder.found_.size();
-    reserve_touched(found_, count, options_.threads == 1 ? 1 : 0);
+    std::size_t found = 0;
+    for (const auto& p : parts) found += p->finder.found_.size();
+    reserve_touched(found_, found, options_.threads == 1 ? 1 : 0);
     bool is_solved = true;
     for (auto& p : parts) {
         is_solved = is_solved && p->is_solved;
@@ -197,17 +210,62 @@ void CrossedFacetsFinder::add(const CrossedFacetsFinder& other) {
     }
 }
 
-bool CrossedFacetsFinder::solve(Cell& cell) {
+bool CrossedFacetsFinder::solve(Cell& cell) { return !begin(cell) || solve_begun(cell); }
+
+// False where nothing is to be done.
+bool CrossedFacetsFinder::begin(Cell& cell) {
     ++stats_->cells;
     check_budget(options_, *stats_);
-    if (!leave_out(cell)) return true;
-    if (cell.pair_count() <= (cell.count() <= few_items ? pairs_of_few : few_pairs))
-        return compare(cell);
+    return leave_out(cell);
+}
+
+bool CrossedFacetsFinder::are_few(const Cell& cell) const {
+    return cell.pair_count() <= (cell.count() <= few_items ? pairs_of_few : few_pairs);
+}
+
+bool CrossedFacetsFinder::solve_begun(Cell& cell) {
+    if (are_few(cell)) return compare(cell);
     const Splitter splitter = splitter_of(cell);
     const bool stalls = splitter.part_left > worthy_part_of_pairs;
     if (stalls && cell.stalled) return compare(cell);
     cell.stalled = stalls;
     return with_enough_stack([&] { return divide(cell, splitter); });
+}
+
+// The same cells in the same order, some of them at the same time.
+bool CrossedFacetsFinder::solve_in_parts(Cell& cell) {
+    std::vector<CellOfItems> parts;
+    list_parts(cell, cell.count() / parts_of_many, parts);
+    return find_on_threads(parts.size(), [&](CrossedFacetsFinder& finder, std::size_t number) {
+        CellOfItems& part = parts[number];
+        finder.items_ = std::move(part.items);
+        return finder.solve_begun(part.cell);
+    });
+}
+
+// Divides it down to cells of so many, which have begun.
+void CrossedFacetsFinder::list_parts(Cell& cell, std::size_t most, std::vector<CellOfItems>& out) {
+    if (!begin(cell)) return;
+    if (cell.count() > most && !are_few(cell)) {
+        const Splitter splitter = splitter_of(cell);
+        const bool stalls = splitter.part_left > worthy_part_of_pairs;
+        if (!stalls || !cell.stalled) {
+            cell.stalled = stalls;
+            for (const bool above : {false, true}) {
+                Cell part = part_of(cell, splitter, above);
+                list_parts(part, most, out);
+            }
+            return;
+        }
+    }
+    CellOfItems& part = out.emplace_back();
+    part.cell = cell;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto items = items_of(cell, i);
+        part.items[i].assign(items.begin(), items.end());
+        part.cell.first[i] = 0;
+        part.cell.end[i] = items.size();
+    }
 }
 
 // Takes out what does not meet the other ones' boxes in the cell; false when nothing is left.

@@ -41,9 +41,10 @@ public:
 
     /// Places of facets whose boxes meet that of the other solid, ascending.
     using Places = std::array<std::span<const std::uint32_t>, 2>;
-    /// False when a cell cannot be listed in doubles. Counts.
+    /// False when a cell cannot be listed in doubles. Counts. `threads`: 1, or 0 for all; what is
+    /// found is the same. Many facets go to all in any case.
     [[nodiscard]] bool find(const OutlinedSolid& first, const OutlinedSolid& second,
-                            const Places& near, EvaluateStats& stats);
+                            const Places& near, std::uint32_t threads, EvaluateStats& stats);
     /// Each pair once.
     [[nodiscard]] std::span<const CrossedFacets> pairs() const { return found_; }
 
@@ -95,7 +96,19 @@ private:
         float at = 0;
         double part_left = 1;  ///< of the pairs, on both sides together
     };
+    // A cell with items of its own.
+    struct CellOfItems {
+        Cell cell;
+        std::array<PoolVector<Item>, 2> items;
+    };
     [[nodiscard]] bool solve(Cell& cell);
+    [[nodiscard]] bool begin(Cell& cell);
+    [[nodiscard]] bool solve_begun(Cell& cell);
+    [[nodiscard]] bool are_few(const Cell& cell) const;
+    [[nodiscard]] bool solve_in_parts(Cell& cell);
+    void list_parts(Cell& cell, std::size_t most, std::vector<CellOfItems>& out);
+    template <class Solve>
+    [[nodiscard]] bool find_on_threads(std::size_t cells, const Solve& solve);
     [[nodiscard]] bool leave_out(Cell& cell);
     [[nodiscard]] std::size_t leave_out(std::size_t solid, std::span<Item> items,
                                         const SingleBox& reach) const;

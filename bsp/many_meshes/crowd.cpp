@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <utility>
+#include <vector>
+
+#include <trisect/bsp/many_meshes/outlines/box_sweep.h>
 
 namespace trisect::detail {
 
@@ -120,25 +124,17 @@ bool do_stand(std::span<const Box> boxes) {
     return are_enough(found, standing_part);
 }
 
-// Whether that holds for enough of those that meet, or none do. Each looks at those that begin
-// before it ends.
-bool may_touch_or_are_apart(std::vector<Box> boxes) {
-    Box all;
-    for (const Box& b : boxes) all.add(b);
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (all.hi[k] - all.lo[k] > all.hi[axis] - all.lo[axis]) axis = k;
-    std::ranges::sort(boxes, {}, [&](const Box& b) { return b.lo[axis]; });
+// Whether that holds for enough of those that meet, or none do.
+bool may_touch_or_are_apart(std::span<const Box> boxes) {
+    std::vector<std::uint32_t> all(boxes.size());
+    std::iota(all.begin(), all.end(), 0U);
     std::vector<std::uint8_t> found(boxes.size(), 0);
     bool are_apart = true;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-        const Box& a = boxes[i];
-        for (std::size_t j = i + 1; j < boxes.size() && boxes[j].lo[axis] <= a.hi[axis]; ++j) {
-            if (!a.overlaps(boxes[j])) continue;
-            are_apart = false;
-            if ((found[i] == 0 || found[j] == 0) && may_touch(a, boxes[j])) found[i] = found[j] = 1;
-        }
-    }
+    for_each_meeting(boxes, all, [&](std::uint32_t i, std::uint32_t j) {
+        are_apart = false;
+        if ((found[i] == 0 || found[j] == 0) && may_touch(boxes[i], boxes[j]))
+            found[i] = found[j] = 1;
+    });
     return are_apart || are_enough(found, touching_part);
 }
 

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <trisect/bsp/cells/cell.h>
 
@@ -28,7 +27,7 @@ enum class Crowd : std::uint8_t {
 
 /// Whether boxes that meet others mostly begin or end at a coordinate at which the other one does,
 /// or lie about one, or none meet. O(n^2) where all meet
-[[nodiscard]] bool may_touch_or_are_apart(std::vector<Box> boxes);
+[[nodiscard]] bool may_touch_or_are_apart(std::span<const Box> boxes);
 
 /// Whether the largest one meets more than 64: a facet that so many operands cross is traced in no
 /// cell (FacetOutline). \pre not empty

@@ -3,6 +3,7 @@
 #include <trisect/bsp/many_meshes/form_of_outlines.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -36,42 +37,95 @@ Parts parts_of(const OutlineStore& store) {
     return out;
 }
 
-// Those vertices of parts that are wanted: most are of whole facets.
-void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t threads) {
-    constexpr std::uint32_t unused = ~std::uint32_t{0};
+constexpr std::uint32_t unused = ~std::uint32_t{0};
+
+// Fewer vertices or edges are not worth a part of their own.
+constexpr std::size_t least_values = 8192;
+
+// Those that are wanted, by vertex of all parts. Each is where an edge begins. Several threads mark
+// the same ones.
+PoolVector<std::uint32_t> wanted_vertices(const OutlinedFacets& outlined, const Parts& parts,
+                                          std::uint32_t threads) {
     std::size_t all = 0;
     for (const Part& p : parts) all += p.solid.vertices.size();
     PoolVector<std::uint32_t> numbers(all, unused);
-    for (const OutlinedFacets::Edge& e : outlined.edges) numbers[e.from] = numbers[e.to] = 0;
+    ParallelParts(outlined.edges.size(), threads, least_values)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                std::atomic_ref(numbers[outlined.edges[i].from])
+                    .store(0, std::memory_order_relaxed);
+        });
+    return numbers;
+}
+
+// Without settled parts none is there twice.
+void take_those_of_one(OutlinedFacets& outlined, std::span<const OutlineVertex> vertices,
+                       std::span<std::uint32_t> numbers, std::uint32_t threads) {
+    const ParallelParts ranges(vertices.size(), threads, least_values);
+    PoolVector<std::size_t> next(ranges.count());
+    ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
+        const auto part = numbers.subspan(begin, end - begin);
+        next[range] = part.size() - static_cast<std::size_t>(std::ranges::count(part, unused));
+    });
+    const std::size_t count = std::accumulate(next.begin(), next.end(), std::size_t{0});
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    reserve_touched(outlined.vertices, count, threads);
+    outlined.vertices.resize(count);
+    ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
+        std::size_t n = next[range];
+        for (std::size_t i = begin; i < end; ++i) {
+            if (numbers[i] == unused) continue;
+            outlined.vertices[n] = vertices[i];
+            numbers[i] = static_cast<std::uint32_t>(n++);
+        }
+    });
+}
+
+// Vertices of settled parts may be those of others, too.
+void take_those_of_several(OutlinedFacets& outlined, const Parts& parts,
+                           std::span<std::uint32_t> numbers, std::uint32_t threads) {
     reserve_touched(outlined.vertices,
-                    static_cast<std::size_t>(std::ranges::count(numbers, std::uint32_t{0})),
+                    numbers.size() - static_cast<std::size_t>(std::ranges::count(numbers, unused)),
                     threads);
-    std::uint32_t* number = numbers.data();
     const auto for_each_wanted = [&](const auto& each) {
-        number = numbers.data();
+        std::uint32_t* number = numbers.data();
         for (const Part& p : parts)
             for (const OutlineVertex& v : p.solid.vertices) {
-                if (*number != unused) each(v);
+                if (*number != unused) each(v, *number);
                 ++number;
             }
     };
     std::size_t shared_count = 0;
-    for_each_wanted([&](const OutlineVertex& v) { shared_count += v.is_shared ? 1 : 0; });
+    for_each_wanted([&](const OutlineVertex& v, std::uint32_t&) {
+        shared_count += v.is_shared ? 1 : 0;
+    });
     FlatMap shared;
     shared.reserve(shared_count);
-    const auto take = [&](const OutlineVertex& v) {
+    for_each_wanted([&](const OutlineVertex& v, std::uint32_t& number) {
         const auto next = static_cast<std::uint32_t>(outlined.vertices.size());
-        *number = next;
+        number = next;
         if (v.is_shared)
-            *number = static_cast<std::uint32_t>(
+            number = static_cast<std::uint32_t>(
                 shared.insert(name_of(v), static_cast<std::int32_t>(next)).first);
-        if (*number == next) outlined.vertices.push_back(v);
-    };
-    for_each_wanted(take);
-    for (OutlinedFacets::Edge& e : outlined.edges) {
-        e.from = numbers[e.from];
-        e.to = numbers[e.to];
-    }
+        if (number == next) outlined.vertices.push_back(v);
+    });
+}
+
+// Those vertices of parts that are wanted: most are of whole facets.
+void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t threads) {
+    PoolVector<std::uint32_t> numbers = wanted_vertices(outlined, parts, threads);
+    if (parts.size() == 1)
+        take_those_of_one(outlined, parts[0].solid.vertices, numbers, threads);
+    else
+        take_those_of_several(outlined, parts, numbers, threads);
+    ParallelParts(outlined.edges.size(), threads, least_values)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                OutlinedFacets::Edge& e = outlined.edges[i];
+                e.from = numbers[e.from];
+                e.to = numbers[e.to];
+            }
+        });
 }
 
 // A facet of which there is a part.

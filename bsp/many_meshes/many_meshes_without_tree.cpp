@@ -376,8 +376,9 @@ std::optional<SolidForm> evaluate_in_turns(const Turns& turns, const Residual::R
     });
     if (!result) return std::nullopt;
     operands.crossings.special = std::move(result->special);
-    UndividedMeshes form =
-        form_of(result->store, meshes, operands.crossings, std::move(tree), options.threads);
+    UndividedMeshes form = on_threads(options.threads, [&](std::uint32_t threads) {
+        return form_of(result->store, meshes, operands.crossings, std::move(tree), threads);
+    });
     form.may_have_straight_crossings = operands.nested && !operands.crossings.special.empty();
     form.may_have_sheets = result->has_sheets;
     for (const UncrossedFacets& u : form.uncrossed) made.untouched_polygons += u.facets.size();

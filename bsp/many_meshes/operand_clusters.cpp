@@ -1,47 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// A sweep along the longest axis: an operand looks at those that end behind its beginning.
 
 #include <trisect/bsp/many_meshes/operand_clusters.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <tuple>
 #include <utility>
 
+#include <trisect/bsp/many_meshes/outlines/box_sweep.h>
 #include <trisect/kernel/support/disjoint_sets.h>
 
 namespace trisect::detail {
 
-namespace {
-
-std::size_t longest_axis(std::span<const Box> boxes, std::span<const std::uint32_t> slots) {
-    Box all;
-    for (const std::uint32_t s : slots) all.add(boxes[s]);
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-        if (all.hi[k] - all.lo[k] > all.hi[axis] - all.lo[axis]) axis = k;
-    return axis;
-}
-
-}  // namespace
-
 std::vector<std::vector<std::uint32_t>> operand_clusters(std::span<const Box> boxes,
                                                          std::span<const std::uint32_t> slots) {
     if (slots.empty()) return {};
-    const std::size_t axis = longest_axis(boxes, slots);
-    std::vector<std::uint32_t> order(slots.begin(), slots.end());
-    std::ranges::sort(order, {}, [&](std::uint32_t s) { return std::tuple(boxes[s].lo[axis], s); });
     DisjointSets joined;
     joined.start(boxes.size());
-    std::vector<std::uint32_t> near;
-    for (const std::uint32_t s : order) {
-        std::erase_if(near, [&](std::uint32_t n) { return boxes[n].hi[axis] < boxes[s].lo[axis]; });
-        for (const std::uint32_t n : near)
-            if (boxes[n].overlaps(boxes[s])) joined.join(n, s);
-        near.push_back(s);
-    }
+    for_each_meeting(boxes, slots,
+                     [&](std::uint32_t s, std::uint32_t t) { joined.join(s, t); });
     std::vector<std::vector<std::uint32_t>> out;
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> cluster(boxes.size(), none);

@@ -57,12 +57,13 @@ void OperandOrder::set_order(const std::vector<Box>& boxes) {
         (is_open_far(i) ? bounded : order_).push_back(i);
     }
     clusters_ = operand_clusters(boxes, bounded);
-    if (crowd != Crowd::All) {
-        for (auto& cluster : clusters_) order_in_space(boxes, cluster);
-        if (bounded.size() == all.size()) order_in_space(boxes, all);
+    if (clusters_.size() > 1) {
+        if (crowd != Crowd::All)
+            for (auto& cluster : clusters_) order_in_space(boxes, cluster);
+        return;
     }
-    if (clusters_.size() > 1) return;
     clusters_.clear();
+    if (crowd != Crowd::All && bounded.size() == all.size()) order_in_space(boxes, all);
     order_ = std::move(all);
 }
 

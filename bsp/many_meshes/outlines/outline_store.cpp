@@ -37,11 +37,11 @@ void OutlineStore::reserve(const ManyMeshes& meshes) {
     const std::size_t facets = meshes.facet_count();
     facets_.reserve(facets);
     boxes_.reserve(facets);
+    lines_.reserve(std::min(facets, most_reserved));
     if (facets < many_facets || edges_.capacity() != 0) return;
     const std::size_t some = std::min(facets, most_reserved);
     edges_.reserve(3 * some);
     vertices_.reserve(some);
-    lines_.reserve(some);
 }
 
 OutlineStore::Solid OutlineStore::empty_solid(bool open_far_out) const {
@@ -232,7 +232,8 @@ void OutlineStore::tidy_vertices(const Solid& solid) {
 }
 
 void OutlineStore::tidy_lines(const Solid& solid) {
-    if (lines_.size() == solid.lines) return;
+    constexpr std::size_t few_lines = 4096;  // larger solids take out those of smaller ones
+    if (lines_.size() - solid.lines <= few_lines) return;
     numbers_.assign(lines_.size() - solid.lines, unused);
     for (const Edge& e : tidy_edges_)
         if (e.origin.has_line()) numbers_[e.origin.line() - solid.lines] = 0;

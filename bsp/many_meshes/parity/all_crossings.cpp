@@ -89,7 +89,7 @@ bool AllCrossings::find_between(std::size_t first, std::size_t middle, std::size
             if (boxes[f].meets(sides[1 - i].box)) finder.near[i].push_back(f);
     }
     const bool is_known =
-        finder.pairs.find(sides[0], sides[1], {finder.near[0], finder.near[1]}, stats);
+        finder.pairs.find(sides[0], sides[1], {finder.near[0], finder.near[1]}, 1, stats);
     if (!is_known || (touching_ == Touching::Stop && !finder.special.facets().empty())) {
         is_stopped_ = true;
         return false;
