@@ -21,10 +21,10 @@ namespace trisect::detail {
 
 namespace {
 
-// Pairs that are compared as they are; more, where facets are few.
-constexpr std::uint64_t few_pairs = 4000;
-constexpr std::uint64_t pairs_of_few = 16000;
-constexpr std::size_t few_items = 280;
+// Pairs that are compared as they are, sixteen boxes at once; more, where facets are few.
+constexpr std::uint64_t few_pairs = 16000;
+constexpr std::uint64_t pairs_of_few = 160000;
+constexpr std::size_t few_items = 800;
 // What a splitting plane may leave of the pairs; once in a row it may leave more.
 constexpr double worthy_part_of_pairs = 0.75;
 
@@ -251,10 +251,9 @@ void CrossedFacetsFinder::list_parts(Cell& cell, std::size_t most, std::vector<C
         const bool stalls = splitter.part_left > worthy_part_of_pairs;
         if (!stalls || !cell.stalled) {
             cell.stalled = stalls;
-            for (const bool above : {false, true}) {
-                Cell part = part_of(cell, splitter, above);
-                list_parts(part, most, out);
-            }
+            auto [below, above] = halves_of(cell, splitter);
+            list_parts(below, most, out);
+            list_parts(above, most, out);
             return;
         }
     }
@@ -303,7 +302,7 @@ std::size_t CrossedFacetsFinder::leave_out(std::size_t solid, std::span<Item> it
             ((greater(lo, item_lo) | greater(down, item_down)) & SingleBox::axes) == 0;
         // Long beside the reach along two axes.
         const unsigned along =
-            greater(FourFloats(-3) * (item_lo + item_down), extent) & SingleBox::axes;
+            greater(FourFloats(-2) * (item_lo + item_down), extent) & SingleBox::axes;
         items[left] = item;
         if (!is_apart && !is_within && (along & (along - 1)) != 0) {
             draw_in(solid, items[left], reach);
@@ -369,43 +368,47 @@ CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell)
 }
 
 bool CrossedFacetsFinder::divide(const Cell& cell, const Splitter& splitter) {
-    for (const bool above : {false, true}) {
-        Cell part = part_of(cell, splitter, above);
-        if (!solve(part)) return false;
-    }
-    return true;
+    auto [below, above] = halves_of(cell, splitter);
+    return solve(below) && solve(above);
 }
 
-// Those on one side.
-auto CrossedFacetsFinder::part_of(const Cell& cell, const Splitter& splitter, bool above) -> Cell {
-    Cell part;
-    part.bounds = cell.bounds;
-    part.stalled = cell.stalled;
-    if (above)
-        part.bounds.lo[splitter.axis] = splitter.at;
-    else
-        part.bounds.down[splitter.axis] = -splitter.at;
-    for (std::size_t i = 0; i < 2; ++i) take_part(i, part, cell, splitter, above);
-    return part;
+auto CrossedFacetsFinder::halves_of(const Cell& cell, const Splitter& splitter)
+    -> std::array<Cell, 2> {
+    Cell below;
+    below.bounds = cell.bounds;
+    below.stalled = cell.stalled;
+    Cell above = below;
+    below.bounds.down[splitter.axis] = -splitter.at;
+    above.bounds.lo[splitter.axis] = splitter.at;
+    for (std::size_t i = 0; i < 2; ++i) take_halves(i, below, above, cell, splitter);
+    return {below, above};
 }
 
-// Those on one side, behind all others. Without a branch.
-void CrossedFacetsFinder::take_part(std::size_t solid, Cell& part, const Cell& cell,
-                                    const Splitter& splitter, bool above) {
+// Behind all others; those above come first, since they stay while what is below is solved. Without
+// a branch.
+void CrossedFacetsFinder::take_halves(std::size_t solid, Cell& below, Cell& above, const Cell& cell,
+                                      const Splitter& splitter) {
     const auto [axis, at, part_left] = splitter;
     PoolVector<Item>& all = items_[solid];
-    const std::size_t room = cell.end[solid] + cell.count(solid);
+    const std::size_t count = cell.count(solid);
+    const std::size_t room = cell.end[solid] + 2 * count;
     if (all.size() < room) all.resize(std::max(room, all.size() + all.size() / 2));
-    Item* next = all.data() + cell.end[solid];
-    for (const Item& item : items_of(cell, solid)) {
+    above.first[solid] = cell.end[solid];
+    below.first[solid] = cell.end[solid] + count;
+    Item* next_above = all.data() + above.first[solid];
+    Item* next_below = all.data() + below.first[solid];
+    for (const Item& listed : items_of(cell, solid)) {
+        Item item = listed;
         const bool is_below = item.box().lo[axis] < at;
         const bool is_above = item.box().hi(axis) >= at;
-        *next = item;
-        next->set_shared(is_below && is_above);
-        next += (above ? is_above : is_below) ? 1 : 0;
+        item.set_shared(is_below && is_above);
+        *next_above = item;
+        *next_below = item;
+        next_above += is_above ? 1 : 0;
+        next_below += is_below ? 1 : 0;
     }
-    part.first[solid] = cell.end[solid];
-    part.end[solid] = static_cast<std::size_t>(next - all.data());
+    above.end[solid] = static_cast<std::size_t>(next_above - all.data());
+    below.end[solid] = static_cast<std::size_t>(next_below - all.data());
 }
 
 bool CrossedFacetsFinder::compare(const Cell& cell) {

@@ -115,12 +115,13 @@ private:
     void draw_in(std::size_t solid, Item& item, const SingleBox& reach) const;
     [[nodiscard]] Splitter splitter_of(const Cell& cell) const;
     [[nodiscard]] bool divide(const Cell& cell, const Splitter& splitter);
-    [[nodiscard]] Cell part_of(const Cell& cell, const Splitter& splitter, bool above);
+    // What is below, and what is above.
+    [[nodiscard]] std::array<Cell, 2> halves_of(const Cell& cell, const Splitter& splitter);
     [[nodiscard]] bool find_in_cells(const Places& near);
     [[nodiscard]] bool solve_cell(const PlacesInCells& cells, std::size_t number);
     void add(const CrossedFacetsFinder& other);
-    void take_part(std::size_t solid, Cell& part, const Cell& cell, const Splitter& splitter,
-                   bool above);
+    void take_halves(std::size_t solid, Cell& below, Cell& above, const Cell& cell,
+                     const Splitter& splitter);
     [[nodiscard]] bool compare(const Cell& cell);
     void leave_out_planes(const Cell& cell);
     [[nodiscard]] std::span<Item> items_of(const Cell& cell, std::size_t solid) {
