@@ -23,6 +23,7 @@
 #include <trisect/bsp/many_meshes/common_segments.h>
 #include <trisect/bsp/many_meshes/crossed_facets.h>
 #include <trisect/bsp/many_meshes/outlines/box_sum.h>
+#include <trisect/bsp/many_meshes/outlines/small_map.h>
 #include <trisect/bsp/many_meshes/point_side.h>
 #include <trisect/bsp/many_meshes/stops_in_order.h>
 #include <trisect/bsp/many_meshes/vertex_sides.h>
@@ -38,17 +39,6 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 
 // Segments of fewer pairs are found on one thread.
 constexpr std::size_t least_pairs_in_parts = 4096;
-
-// Clearing writes all of it, which is much after a large one: then a small one is taken anew.
-void clear(FlatMap& map) {
-    constexpr std::size_t most_bytes = 4096;
-    constexpr std::size_t bytes_of_one = 256;
-    if (map.bytes() > most_bytes + bytes_of_one * map.size()) {
-        map = FlatMap();
-    } else {
-        map.clear();
-    }
-}
 
 }  // namespace
 
@@ -186,7 +176,7 @@ void CommonPart::Steps::start(const Solid& first, const Solid& second) {
     vertices_ = {first.vertices, second.vertices, store_.vertices().size()};
     segments_.start(solids_[0], solids_[1]);
     made_.clear();
-    clear(made_by_name_);
+    empty(made_by_name_);
     stops_.clear();
     for (std::size_t i = 0; i < 2; ++i) {
         cuts_[i].clear();

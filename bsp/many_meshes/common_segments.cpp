@@ -133,15 +133,17 @@ bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet
         side_of_last = to;
         if (from == 0 || to == 0) return false;
         if (from == to) continue;
-        Passage p;
-        p.of_second = solid == 1;
-        p.enters = (to > 0) == (solid == 0);
-        p.edge = e;
+        const Passage here{Passage::Where::Before, solid == 1, (to > 0) == (solid == 0), e};
         const FacetCrossing* line = s.line_of(edge);
-        if (!(line == nullptr ? place_own(p, edge.origin.own())
-                              : place_on_line(p, facet, *line, other)))
-            return false;
-        (p.where == Passage::Where::Inside ? inside_ : passages_).push_back(p);
+        if (line == nullptr) {
+            if (!place_own(passages_.emplace_back(here), edge.origin.own())) return false;
+            continue;
+        }
+        InnerPassage& p = inside_.emplace_back(here);
+        if (!place_on_line(p, facet, *line, other)) return false;
+        if (p.where == Passage::Where::Inside) continue;
+        passages_.push_back(p);
+        inside_.pop_back();
     }
     return true;
 }
@@ -159,7 +161,7 @@ bool CommonSegments::place_own(Passage& p, std::int8_t own) const {
 }
 
 // An end at an edge of the facet itself is beyond all that its cutters cut.
-bool CommonSegments::place_on_line(Passage& p, const OutlinedSolid::Facet& facet,
+bool CommonSegments::place_on_line(InnerPassage& p, const OutlinedSolid::Facet& facet,
                                    const FacetCrossing& line, const FilteredPlane& other) const {
     p.cutter = line.facets[line.facets[0] == facet.number ? 1 : 0];
     if (!set_place(p, {facet.number, p.cutter, crossing_->facets[p.of_second ? 0 : 1]}, line,
@@ -181,7 +183,7 @@ bool CommonSegments::place_on_line(Passage& p, const OutlinedSolid::Facet& facet
 }
 
 // From the ends of the segment, where these are clearly on different sides.
-bool CommonSegments::set_place(Passage& p, const std::array<std::uint32_t, 3>& facets,
+bool CommonSegments::set_place(InnerPassage& p, const std::array<std::uint32_t, 3>& facets,
                                const FacetCrossing& line, const FilteredPlane& other) const {
     const Approximation& u = line.ends[0].at;
     const Approximation& w = line.ends[1].at;
@@ -197,7 +199,7 @@ bool CommonSegments::set_place(Passage& p, const std::array<std::uint32_t, 3>& f
 bool CommonSegments::sort_inside() {
     bool known = true;
     if (inside_.size() < 2) return true;
-    sort_few(std::span(inside_), [&](const Passage& a, const Passage& b) {
+    sort_few(std::span(inside_), [&](const InnerPassage& a, const InnerPassage& b) {
         if (std::fabs(b.along - a.along) > bound_slack * (a.at.error + b.at.error))
             return a.along < b.along;
         if (a.edge == b.edge && a.of_second == b.of_second) return false;
@@ -246,7 +248,7 @@ bool CommonSegments::walk(const std::array<const OutlinedSolid::Facet*, 2>& face
     };
     if (in[0] && in[1] && !end_of_crossing(0, segments_.emplace_back().ends[0], owner(0)))
         return false;
-    for (const Passage& p : inside_) {
+    for (const InnerPassage& p : inside_) {
         bool& own = in[p.of_second ? 1 : 0];
         if (own == p.enters) return false;
         const bool was = in[0] && in[1];

@@ -56,7 +56,9 @@ private:
         bool of_second = false;
         bool enters = false;  ///< the part lies behind it
         std::uint32_t edge = 0;
-        std::uint32_t cutter = 0;  ///< of what lies inside
+    };
+    struct InnerPassage : Passage {
+        std::uint32_t cutter = 0;
         double along = 0;
         Approximation at;
     };
@@ -67,9 +69,9 @@ private:
     [[nodiscard]] bool list_passages(std::size_t solid, const OutlinedSolid::Facet& facet,
                                      const FilteredPlane& other);
     [[nodiscard]] bool place_own(Passage& p, std::int8_t own) const;
-    [[nodiscard]] bool place_on_line(Passage& p, const OutlinedSolid::Facet& facet,
+    [[nodiscard]] bool place_on_line(InnerPassage& p, const OutlinedSolid::Facet& facet,
                                      const FacetCrossing& line, const FilteredPlane& other) const;
-    [[nodiscard]] bool set_place(Passage& p, const std::array<std::uint32_t, 3>& facets,
+    [[nodiscard]] bool set_place(InnerPassage& p, const std::array<std::uint32_t, 3>& facets,
                                  const FacetCrossing& line, const FilteredPlane& other) const;
     [[nodiscard]] bool begin_inside(std::size_t solid, const OutlinedSolid::Facet& facet,
                                     bool& inside) const;
@@ -95,7 +97,7 @@ private:
     std::size_t axis_ = 0;  // along which the segment is longest, and which way
     double way_ = 1;
     std::vector<Passage> passages_;
-    std::vector<Passage> inside_;
+    std::vector<InnerPassage> inside_;
 };
 
 }  // namespace trisect::detail

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <trisect/bsp/many_meshes/outlines/box_sum.h>
+#include <trisect/bsp/many_meshes/outlines/small_map.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/touched_room.h>
@@ -112,7 +113,7 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
     solids_ = {&first, &second};
     stats_ = &stats;
     found_.clear();
-    known_.clear();
+    empty(known_);
     OutlineBox place = first.box;
     for (std::size_t k = 0; k < 3; ++k) {
         place.lo[k] = std::max(place.lo[k], second.box.lo[k]);

@@ -205,12 +205,10 @@ public:
             }
             return;
         }
-        for (const OutlinedSolid::Edge& e : others(f)) {
-            *out = parts_[f.part].solid.for_assembly(meshes_, e, f.number, f.slot);
-            out->from += vertex;
-            out->to += vertex;
-            ++out;
-        }
+        const OutlinedSolid& solid = parts_[f.part].solid;
+        for (const OutlinedSolid::Edge& e : others(f))
+            *out++ = solid.for_assembly(meshes_, {e.from + vertex, e.to + vertex, e.origin},
+                                        f.number, f.slot);
     }
     // Edges of a facet, and their lines, lie anywhere in memory.
     void prefetch(const CutFacet& f) const {

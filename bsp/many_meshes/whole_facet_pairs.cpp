@@ -114,9 +114,10 @@ bool WholeFacetPairs::make_planes() {
         Facet& f = facets_[i];
         f.corners = meshes_.corners(slot, number - meshes_.operands->operands[slot].first);
         for (std::size_t c = 0; c < 3; ++c) {
-            f.singles[c] = FacetRows::single_of(minus(f.corners[c], near_));
-            low = smaller(low, FourFloats(f.singles[c]));
-            high = larger(high, FourFloats(f.singles[c]));
+            const FourFloats single = singles_between(f.corners[c], near_);
+            f.singles[c] = single.numbers();
+            low = smaller(low, single);
+            high = larger(high, single);
         }
     }
     const auto lowest = low.numbers();

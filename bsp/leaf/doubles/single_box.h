@@ -19,6 +19,27 @@
 
 namespace trisect::detail {
 
+#if defined(__SSE2__)
+/// a - b in single precision, and 0.
+// From registers: numbers that are stored one by one are not at hand as four for a while.
+[[nodiscard]] inline FourFloats singles_between(const Vector3& a, const Vector3& b) {
+    const __m128 xy =
+        _mm_cvtpd_ps(_mm_sub_pd(_mm_loadu_pd(a.data()), _mm_loadu_pd(b.data())));
+    const __m128 z =
+        _mm_cvtpd_ps(_mm_sub_sd(_mm_load_sd(a.data() + 2), _mm_load_sd(b.data() + 2)));
+    alignas(16) std::array<float, 4> out;
+    _mm_store_ps(out.data(), _mm_movelh_ps(xy, z));
+    return FourFloats(out);
+}
+#else
+[[nodiscard]] inline FourFloats singles_between(const Vector3& a, const Vector3& b) {
+    const Vector3 v = minus(a, b);
+    alignas(16) const std::array<float, 4> out{static_cast<float>(v[0]), static_cast<float>(v[1]),
+                                          static_cast<float>(v[2]), 0};
+    return FourFloats(out);
+}
+#endif
+
 /// Closed. The fourth number of either end is the caller's; it must be finite.
 struct alignas(16) SingleBox {
     using Four = std::array<float, 4>;
@@ -76,7 +97,7 @@ public:
         margin_ = 0x1p-22F * farthest_;
     }
     [[nodiscard]] SingleBox box(const Vector3& lo, const Vector3& hi) const {
-        return {drawn_in(lo, middle_), drawn_in(middle_, hi)};
+        return {drawn_in(middle_, lo), drawn_in(hi, middle_)};
     }
     /// In doubles, off by no more than their rounding.
     [[nodiscard]] double lower(const SingleBox& b, std::size_t axis) const {
@@ -89,30 +110,10 @@ public:
 private:
     // From one end to the other.
     [[nodiscard]] SingleBox::Four drawn_in(const Vector3& from, const Vector3& to) const {
-        return (larger(smaller(singles(from, to), FourFloats(farthest_)), FourFloats(-farthest_)) -
+        return (larger(smaller(singles_between(to, from), FourFloats(farthest_)), FourFloats(-farthest_)) -
                 FourFloats(margin_))
             .numbers();
     }
-#if defined(__SSE2__)
-    // From registers: numbers that are stored one by one are not at hand as four for a while.
-    [[nodiscard]] static FourFloats singles(const Vector3& a, const Vector3& b) {
-        const __m128 xy =
-            _mm_cvtpd_ps(_mm_sub_pd(_mm_loadu_pd(a.data()), _mm_loadu_pd(b.data())));
-        const __m128 z =
-            _mm_cvtpd_ps(_mm_sub_sd(_mm_load_sd(a.data() + 2), _mm_load_sd(b.data() + 2)));
-        alignas(16) SingleBox::Four out;
-        _mm_store_ps(out.data(), _mm_movelh_ps(xy, z));
-        return FourFloats(out);
-    }
-#else
-    [[nodiscard]] static FourFloats singles(const Vector3& a, const Vector3& b) {
-        const Vector3 v = minus(a, b);
-        alignas(16) const SingleBox::Four out{static_cast<float>(v[0]), static_cast<float>(v[1]),
-                                              static_cast<float>(v[2]), 0};
-        return FourFloats(out);
-    }
-#endif
-
     Vector3 middle_{};
     float farthest_ = 0;
     float margin_ = 0;

@@ -15,6 +15,8 @@ namespace {
 // a store seldom has all.
 constexpr std::size_t many_facets = std::size_t{1} << 20;
 constexpr std::size_t most_reserved = std::size_t{1} << 21;
+// Few large facets cross each other often.
+constexpr std::size_t many_lines = std::size_t{1} << 16;
 
 constexpr std::uint32_t unused = ~std::uint32_t{0};
 
@@ -37,7 +39,7 @@ void OutlineStore::reserve(const ManyMeshes& meshes) {
     const std::size_t facets = meshes.facet_count();
     facets_.reserve(facets);
     boxes_.reserve(facets);
-    lines_.reserve(std::min(facets, most_reserved));
+    lines_.reserve(std::min(std::max(facets, std::min(4 * facets, many_lines)), most_reserved));
     if (facets < many_facets || edges_.capacity() != 0) return;
     const std::size_t some = std::min(facets, most_reserved);
     edges_.reserve(3 * some);
