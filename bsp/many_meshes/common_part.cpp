@@ -297,8 +297,8 @@ void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
         cuts_[i].add(places[i], {ends[along[i] ? 0 : 1], ends[along[i] ? 1 : 0], line});
 }
 
-// Two facets share the edge.
-std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
+// Two facets share the edge. With the map compiled in, so that names stay in registers.
+[[gnu::flatten]] std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
                                            const std::array<std::uint32_t, 2>& places) {
     const std::size_t owner = end.of_second ? 1 : 0;
     const OutlinedSolid::Edge& e = solids_[owner].edges[end.edge];

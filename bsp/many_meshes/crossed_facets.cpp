@@ -271,8 +271,7 @@ void CrossedFacetsFinder::list_parts(Cell& cell, std::size_t most, std::vector<C
 // Takes out what does not meet the other ones' boxes in the cell; false when nothing is left.
 bool CrossedFacetsFinder::leave_out(Cell& cell) {
     for (std::size_t i = 0; i < 2; ++i) {
-        SingleBox reach = SingleBox::none();
-        for (const Item& item : items_of(cell, 1 - i)) reach.add(item.box());
+        SingleBox reach = box_of(items_of(cell, 1 - i));
         reach.cut(cell.bounds);
         // What they have as the fourth number is nothing here.
         reach.lo[3] = reach.down[3] = 0;
@@ -329,9 +328,8 @@ void CrossedFacetsFinder::draw_in(std::size_t solid, Item& item, const SingleBox
 
 // In the middle, across the axis that leaves the fewest pairs.
 CrossedFacetsFinder::Splitter CrossedFacetsFinder::splitter_of(const Cell& cell) const {
-    SingleBox all = SingleBox::none();
-    for (std::size_t i = 0; i < 2; ++i)
-        for (const Item& item : items_of(cell, i)) all.add(item.box());
+    SingleBox all = box_of(items_of(cell, 0));
+    all.add(box_of(items_of(cell, 1)));
     all.cut(cell.bounds);
     alignas(16) SingleBox::Four at{};
     for (std::size_t k = 0; k < 3; ++k) at[k] = all.lo[k] + (all.hi(k) - all.lo[k]) / 2;
@@ -399,12 +397,12 @@ void CrossedFacetsFinder::take_halves(std::size_t solid, Cell& below, Cell& abov
     Item* next_above = all.data() + above.first[solid];
     Item* next_below = all.data() + below.first[solid];
     for (const Item& listed : items_of(cell, solid)) {
-        Item item = listed;
-        const bool is_below = item.box().lo[axis] < at;
-        const bool is_above = item.box().hi(axis) >= at;
-        item.set_shared(is_below && is_above);
-        *next_above = item;
-        *next_below = item;
+        const bool is_below = listed.box().lo[axis] < at;
+        const bool is_above = listed.box().hi(axis) >= at;
+        *next_above = listed;
+        next_above->set_shared(is_below && is_above);
+        *next_below = listed;
+        next_below->set_shared(is_below && is_above);
         next_above += is_above ? 1 : 0;
         next_below += is_below ? 1 : 0;
     }

@@ -130,6 +130,19 @@ private:
     [[nodiscard]] std::span<const Item> items_of(const Cell& cell, std::size_t solid) const {
         return std::span(items_[solid]).subspan(cell.first[solid], cell.count(solid));
     }
+    // The box of all; two at once, neither of which waits for the one before it.
+    [[nodiscard]] static SingleBox box_of(std::span<const Item> items) {
+        SingleBox out = SingleBox::none();
+        SingleBox other = SingleBox::none();
+        std::size_t i = 0;
+        for (; i + 2 <= items.size(); i += 2) {
+            out.add(items[i].box());
+            other.add(items[i + 1].box());
+        }
+        if (i < items.size()) out.add(items[i].box());
+        out.add(other);
+        return out;
+    }
     using Pair = std::array<Item, 2>;
     [[nodiscard]] Pair pair_of(const Cell& cell, const WholeFacetPairs::Places& places) const {
         return {items_[0][cell.first[0] + places[0]], items_[1][cell.first[1] + places[1]]};
