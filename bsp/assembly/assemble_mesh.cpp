@@ -520,7 +520,8 @@ PolygonMesh assemble(const SolidState& solid, AssemblyStats* stats, bool by_plan
     const auto join = [&] {
         if (parts.are_joined) return sort_by_facet(parts, edges);
         join_facets(parts, edges, threads);
-        remove_straight_vertices(parts, true, {}, edges, threads);
+        // Else none is left out before facets of one plane are joined.
+        if (!parts.are_general) remove_straight_vertices(parts, true, {}, edges, threads);
         // Facets that nothing changed are left alone, so that it does not show which of them the
         // tree has looked at.
         mark_unchanged_facets(parts, edges, threads);

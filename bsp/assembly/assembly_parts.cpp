@@ -187,7 +187,10 @@ void Gatherer::gather(const UndividedMeshes& meshes) {
         for (const UndividedMeshes* m = &meshes; m != nullptr; m = m->beside.get())
             trace_facets(*m->crossings, out_, edges_, threads_);
     }
-    if (out_.stats.traced_facets == out_.facets.size()) return;
+    if (out_.stats.traced_facets == out_.facets.size()) {
+        out_.are_general = meshes.outlined != nullptr && meshes.crossings->special.empty();
+        return;
+    }
     needs_tree_ = !meshes.crossings->special.empty() || meshes.beside != nullptr;
     if (needs_tree_) return;
     const CellTree& tree = meshes.tree->cut()->tree();

@@ -36,6 +36,9 @@ struct BoundaryParts {
     PoolVector<PointId> representatives;
     /// The edges are those of whole faces, and no vertex is left that means nothing.
     bool are_joined = false;
+    /// All are outlines in general position: around each vertex that is no corner some facet turns,
+    /// as its name says, since a part of each facet that the name has is in the result there.
+    bool are_general = false;
     /// Corners of two sources that are one vertex, where facets of both pass through; else null.
     const EqualCorners* equal_corners = nullptr;
     std::array<const Source*, 2> equal_sources{};

@@ -195,7 +195,7 @@ public:
 
 private:
     static constexpr PlaneId unused = -1;
-    static constexpr std::size_t least_values = 16384;  // fewer are not worth a part
+    static constexpr std::size_t least_values = 4096;  // fewer are not worth a part
 
     template <class Work>
     void for_each(std::size_t size, const Work& work) const {
@@ -287,7 +287,7 @@ private:
     }
 
     void add_edges(BoundaryEdges& edges) {
-        const ParallelParts parts(outlined_.facets.size(), threads_, least_values / 4);
+        const ParallelParts parts(outlined_.facets.size(), threads_, least_values / 2);
         if (parts.count() == 1) {
             edges.reserve(edges.size() + outlined_.edges.size());
             add_edges_of(0, outlined_.facets.size(),
