@@ -38,7 +38,7 @@ namespace {
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
 // Segments of fewer pairs are found on one thread.
-constexpr std::size_t least_pairs_in_parts = 4096;
+constexpr std::size_t least_pairs_in_parts = 1024;
 
 }  // namespace
 

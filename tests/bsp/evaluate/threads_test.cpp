@@ -119,6 +119,24 @@ TEST(Threads, ManyLargeMeshesDoNotDependOnTheirNumber) {
     EXPECT_GT(mesh.face_count(), 82000U);
 }
 
+// Balls that fill one place: the last two unions of halves have more than 4,096 facets near each
+// other, and 1,024 pairs that cross, which threads find (bsp/many_meshes/common_part.cpp).
+TEST(Threads, DenseMeshesDoNotDependOnTheirNumber) {
+    std::vector<PolygonMesh> balls;
+    const auto place = [](int i, double step) { return 1.7 * std::fmod(step * (i + 1), 1.0); };
+    for (int i = 0; i < 56; ++i) {
+        balls.push_back(trisect::make_icosphere(0.6 + 0.01 * (i % 7), 3));
+        for (auto& p : balls.back().points)
+            p = {p[0] + place(i, 0.8192), p[1] + place(i, 0.6710), p[2] + place(i, 0.5497)};
+    }
+    const PolygonMesh mesh = expect_the_same_on_any_number(balls, [](const auto& s) {
+        Expression all = s[0];
+        for (std::size_t i = 1; i < s.size(); ++i) all = all | s[i];
+        return all;
+    });
+    EXPECT_GT(mesh.face_count(), 9000U);
+}
+
 // Steps of a chain have work for two threads, though no more than twenty leaves each.
 TEST(Threads, ChainsDoNotDependOnTheirNumber) {
     const auto chain = [](std::uint32_t threads) {
