@@ -222,9 +222,9 @@ BalancedTree::Pair BalancedTree::both(std::size_t facets, EvaluateStats& stats,
     return out;
 }
 
-// What is above comes from the store of the thread that made it, unless it lies behind what is below
-// already: mostly no other thread is free. What is below stays where it is: a thread that waits
-// makes other parts of the tree behind it, and takes them out.
+// What is above comes from the store of the thread that made it, unless it lies behind what is
+// below already: mostly no other thread is free. What is below stays where it is: a thread that
+// waits makes other parts of the tree behind it, and takes them out.
 template <class Below, class Above>
 BalancedTree::Pair BalancedTree::both_in_parallel(const Below& below_by,
                                                   const Above& above_by) const {

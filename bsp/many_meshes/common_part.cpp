@@ -298,8 +298,8 @@ void CommonPart::Steps::add_cut(const std::array<std::uint32_t, 2>& places,
 }
 
 // Two facets share the edge. With the map compiled in, so that names stay in registers.
-[[gnu::flatten]] std::uint32_t CommonPart::Steps::vertex_at(const CommonSegment::End& end,
-                                           const std::array<std::uint32_t, 2>& places) {
+[[gnu::flatten]] std::uint32_t CommonPart::Steps::vertex_at(
+    const CommonSegment::End& end, const std::array<std::uint32_t, 2>& places) {
     const std::size_t owner = end.of_second ? 1 : 0;
     const OutlinedSolid::Edge& e = solids_[owner].edges[end.edge];
     const auto [low, high] = std::minmax(e.from, e.to);

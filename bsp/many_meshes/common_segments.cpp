@@ -139,7 +139,8 @@ bool CommonSegments::list_passages(std::size_t solid, const OutlinedSolid::Facet
             if (!place_own(passages_.emplace_back(here), edge.origin.own())) return false;
             continue;
         }
-        InnerPassage& p = inside_.emplace_back(here);
+        InnerPassage& p = inside_.emplace_back();
+        static_cast<Passage&>(p) = here;
         if (!place_on_line(p, facet, *line, other)) return false;
         if (p.where == Passage::Where::Inside) continue;
         passages_.push_back(p);

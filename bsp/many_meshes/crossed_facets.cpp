@@ -108,8 +108,7 @@ private:
 }  // namespace
 
 bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& second,
-                               const Places& near, std::uint32_t threads,
-                               EvaluateStats& stats) {
+                               const Places& near, std::uint32_t threads, EvaluateStats& stats) {
     solids_ = {&first, &second};
     stats_ = &stats;
     found_.clear();

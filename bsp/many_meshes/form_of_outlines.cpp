@@ -96,9 +96,8 @@ void take_those_of_several(OutlinedFacets& outlined, const Parts& parts,
             }
     };
     std::size_t shared_count = 0;
-    for_each_wanted([&](const OutlineVertex& v, std::uint32_t&) {
-        shared_count += v.is_shared ? 1 : 0;
-    });
+    for_each_wanted(
+        [&](const OutlineVertex& v, std::uint32_t&) { shared_count += v.is_shared ? 1 : 0; });
     FlatMap shared;
     shared.reserve(shared_count);
     for_each_wanted([&](const OutlineVertex& v, std::uint32_t& number) {

@@ -17,8 +17,7 @@ std::vector<std::vector<std::uint32_t>> operand_clusters(std::span<const Box> bo
     if (slots.empty()) return {};
     DisjointSets joined;
     joined.start(boxes.size());
-    for_each_meeting(boxes, slots,
-                     [&](std::uint32_t s, std::uint32_t t) { joined.join(s, t); });
+    for_each_meeting(boxes, slots, [&](std::uint32_t s, std::uint32_t t) { joined.join(s, t); });
     std::vector<std::vector<std::uint32_t>> out;
     constexpr std::uint32_t none = ~std::uint32_t{0};
     std::vector<std::uint32_t> cluster(boxes.size(), none);

@@ -23,10 +23,8 @@ namespace trisect::detail {
 /// a - b in single precision, and 0.
 // From registers: numbers that are stored one by one are not at hand as four for a while.
 [[nodiscard]] inline FourFloats singles_between(const Vector3& a, const Vector3& b) {
-    const __m128 xy =
-        _mm_cvtpd_ps(_mm_sub_pd(_mm_loadu_pd(a.data()), _mm_loadu_pd(b.data())));
-    const __m128 z =
-        _mm_cvtpd_ps(_mm_sub_sd(_mm_load_sd(a.data() + 2), _mm_load_sd(b.data() + 2)));
+    const __m128 xy = _mm_cvtpd_ps(_mm_sub_pd(_mm_loadu_pd(a.data()), _mm_loadu_pd(b.data())));
+    const __m128 z = _mm_cvtpd_ps(_mm_sub_sd(_mm_load_sd(a.data() + 2), _mm_load_sd(b.data() + 2)));
     alignas(16) std::array<float, 4> out;
     _mm_store_ps(out.data(), _mm_movelh_ps(xy, z));
     return FourFloats(out);
@@ -35,7 +33,7 @@ namespace trisect::detail {
 [[nodiscard]] inline FourFloats singles_between(const Vector3& a, const Vector3& b) {
     const Vector3 v = minus(a, b);
     alignas(16) const std::array<float, 4> out{static_cast<float>(v[0]), static_cast<float>(v[1]),
-                                          static_cast<float>(v[2]), 0};
+                                               static_cast<float>(v[2]), 0};
     return FourFloats(out);
 }
 #endif
@@ -110,7 +108,8 @@ public:
 private:
     // From one end to the other.
     [[nodiscard]] SingleBox::Four drawn_in(const Vector3& from, const Vector3& to) const {
-        return (larger(smaller(singles_between(to, from), FourFloats(farthest_)), FourFloats(-farthest_)) -
+        return (larger(smaller(singles_between(to, from), FourFloats(farthest_)),
+                       FourFloats(-farthest_)) -
                 FourFloats(margin_))
             .numbers();
     }

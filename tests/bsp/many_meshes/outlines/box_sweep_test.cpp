@@ -37,17 +37,15 @@ TEST(BoxSweep, FindsEachPairOnce) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const int extent = k == longest ? 40 : 12;
                     boxes[s].lo[k] = std::uniform_int_distribution(-extent, extent)(random);
-                    boxes[s].hi[k] =
-                        boxes[s].lo[k] + std::uniform_int_distribution(0, 6)(random);
+                    boxes[s].hi[k] = boxes[s].lo[k] + std::uniform_int_distribution(0, 6)(random);
                 }
                 if (s % 5 != 0) slots.push_back(s);
             }
             Pairs found;
-            trisect::detail::for_each_meeting(
-                boxes, slots, [&](std::uint32_t s, std::uint32_t t) {
-                    EXPECT_LE(boxes[s].lo[longest], boxes[t].lo[longest]);
-                    EXPECT_TRUE(found.insert(std::minmax(s, t)).second);
-                });
+            trisect::detail::for_each_meeting(boxes, slots, [&](std::uint32_t s, std::uint32_t t) {
+                EXPECT_LE(boxes[s].lo[longest], boxes[t].lo[longest]);
+                EXPECT_TRUE(found.insert(std::minmax(s, t)).second);
+            });
             EXPECT_EQ(found, all_meeting(boxes, slots));
         }
 }
