@@ -115,7 +115,8 @@ void join_facets(const BoundaryParts& parts, BoundaryEdges& edges, std::uint32_t
     sort_by_facet(parts, edges);
     BoundaryEdges cancelled;
     join_in_parts(parts, edges, parts.may_have_straight_crossings ? &cancelled : nullptr, threads);
-    if (have_splitters(parts, edges, threads)) conform_splitters(parts, edges);
+    if (!parts.are_general && have_splitters(parts, edges, threads))
+        conform_splitters(parts, edges);
     put_back_crossings(parts, cancelled, edges);
     if (parts.crossings.empty()) return;
     edges.insert(edges.end(), parts.crossings.begin(), parts.crossings.end());

@@ -38,9 +38,12 @@ bool are_one_by_corners(const PlaneName& p, const PlaneName& q) {
 }  // namespace
 
 void StraightRuns::look_at(std::size_t first, std::size_t end, EdgeChains& chains) {
+    constexpr std::size_t ahead = 16;
     for (std::size_t i = first; i < end;) {
         std::size_t j = i;
-        while (j < end && edges_[j].facet == edges_[i].facet) ++j;
+        for (; j < end && edges_[j].facet == edges_[i].facet; ++j)
+            if (j + ahead < end)  // names of points lie anywhere in memory
+                __builtin_prefetch(&bench_.planes_of(edges_[j + ahead].from));
         look_at_facet(i, j, chains);
         i = j;
     }
