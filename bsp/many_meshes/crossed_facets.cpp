@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <trisect/bsp/many_meshes/outlines/box_sum.h>
+#include <trisect/bsp/many_meshes/outlines/part_halves.h>
 #include <trisect/bsp/many_meshes/outlines/small_map.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -123,13 +124,10 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
     Cell cell;
     cell.bounds = SingleBox::everywhere();
     for (std::size_t i = 0; i < 2; ++i) {
-        cell.end[i] = near[i].size();
-        if (items_[i].size() < near[i].size()) items_[i].resize(near[i].size());
+        if (items_[i].size() < 2 * near[i].size()) items_[i].resize(2 * near[i].size());
         Item* next = items_[i].data();
-        for (const std::uint32_t f : near[i]) {
-            const OutlineBox& b = solids_[i]->boxes[f];
-            *next++ = Item(place_.box(b.lo, b.hi), f);
-        }
+        for (const std::uint32_t f : near[i]) next = list(i, f, next);
+        cell.end[i] = static_cast<std::size_t>(next - items_[i].data());
     }
     return threads != 1 && cell.count() >= least_items_in_parts ? solve_in_parts(cell)
                                                                 : solve(cell);
@@ -180,19 +178,34 @@ bool CrossedFacetsFinder::find_on_threads(std::size_t count, const Solve& solve)
     return is_solved;
 }
 
+// One item, or one for each half. Returns what comes behind.
+auto CrossedFacetsFinder::list(std::size_t solid, std::uint32_t place, Item* next) const -> Item* {
+    const OutlinedSolid& s = *solids_[solid];
+    const OutlineBox& box = s.boxes[place];
+    const auto halves = halves_of_part(s, s.facets[place], box);
+    if (!halves) {
+        *next = Item(place_.box(box.lo, box.hi), place);
+        return next + 1;
+    }
+    for (const OutlineBox& b : *halves) {
+        *next = Item(place_.box(b.lo, b.hi), place);
+        next++->set_half();
+    }
+    return next;
+}
+
 bool CrossedFacetsFinder::solve_cell(const PlacesInCells& cells, std::size_t number) {
     Cell cell;
     cell.bounds = cells.bounds(number);
     for (std::size_t i = 0; i < 2; ++i) {
         const auto entries = cells.of(i, number);
-        cell.end[i] = entries.size();
-        if (items_[i].size() < entries.size()) items_[i].resize(entries.size());
+        if (items_[i].size() < 2 * entries.size()) items_[i].resize(2 * entries.size());
         Item* next = items_[i].data();
         for (const PlacesInCells::Entry& e : entries) {
-            const OutlineBox& b = solids_[i]->boxes[e.place()];
-            *next = Item(place_.box(b.lo, b.hi), e.place());
-            next++->set_shared(e.is_shared());
+            Item* const end = list(i, e.place(), next);
+            for (; next != end; ++next) next->set_shared(e.is_shared());
         }
+        cell.end[i] = static_cast<std::size_t>(next - items_[i].data());
     }
     return solve(cell);
 }
@@ -465,6 +478,16 @@ void CrossedFacetsFinder::decide(const Cell& cell) {
     }
 }
 
+// Whether a crossing meets the boxes of both items.
+bool CrossedFacetsFinder::meets(const Pair& pair,
+                                const std::array<FacetCrossing::End, 2>& ends) const {
+    BoxSum sum;
+    for (const FacetCrossing::End& end : ends) sum.add(end.at);
+    const OutlineBox box = sum.box();
+    const SingleBox single = place_.box(box.lo, box.hi);
+    return pair[0].box().meets(single) && pair[1].box().meets(single);
+}
+
 // A pair may be listed in several cells, but not where one of them is in one alone. Of two parts
 // the whole facets may cross somewhere else.
 void CrossedFacetsFinder::keep(const Pair& pair, const std::array<FacetCrossing::End, 2>& ends) {
@@ -477,7 +500,9 @@ void CrossedFacetsFinder::keep(const Pair& pair, const std::array<FacetCrossing:
         for (std::size_t i = 0; i < 2; ++i)
             if (!facets[i]->whole && !probe.meets(solids_[i]->boxes[places[i]])) return;
     }
-    if (pair[0].is_shared() && pair[1].is_shared()) {
+    const bool is_of_half = pair[0].is_half() || pair[1].is_half();
+    if (is_of_half && !meets(pair, ends)) return;
+    if (is_of_half || (pair[0].is_shared() && pair[1].is_shared())) {
         if (!known_.insert({places[0], places[1]}, 0).second) return;
         if (is_of_many_) many_cells_.push_back(static_cast<std::uint32_t>(found_.size()));
     }

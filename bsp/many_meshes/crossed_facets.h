@@ -70,10 +70,14 @@ private:
         // Whether another cell may have it, too.
         [[nodiscard]] bool is_shared() const { return box_.down[3] != 0; }
         void set_shared(bool shared) { box_.down[3] += shared ? 1.0F : 0.0F; }
+        // Whether it is one of two of its facet.
+        [[nodiscard]] bool is_half() const { return box_.down[3] >= half; }
+        void set_half() { box_.down[3] += half; }
 
     private:
         // Added to a place: so it is the bits of a finite number, as there are fewer than 2^29.
         static constexpr std::uint32_t finite = std::uint32_t{1} << 30;
+        static constexpr float half = 0x1p20F;  // more than cells are divided
         SingleBox box_;
     };
     // Items lie behind those of the cell that it is a part of.
@@ -112,6 +116,7 @@ private:
     [[nodiscard]] bool leave_out(Cell& cell);
     [[nodiscard]] std::size_t leave_out(std::size_t solid, std::span<Item> items,
                                         const SingleBox& reach) const;
+    [[nodiscard]] Item* list(std::size_t solid, std::uint32_t place, Item* next) const;
     void draw_in(std::size_t solid, Item& item, const SingleBox& reach) const;
     [[nodiscard]] Splitter splitter_of(const Cell& cell) const;
     [[nodiscard]] bool divide(const Cell& cell, const Splitter& splitter);
@@ -148,6 +153,7 @@ private:
         return {items_[0][cell.first[0] + places[0]], items_[1][cell.first[1] + places[1]]};
     }
     void decide(const Cell& cell);
+    [[nodiscard]] bool meets(const Pair& pair, const std::array<FacetCrossing::End, 2>& ends) const;
     void keep(const Pair& pair, const std::array<FacetCrossing::End, 2>& ends);
 
     const ManyMeshes& meshes_;

@@ -92,8 +92,10 @@ public:
         // Twice as far from the middle as the place reaches. What is within that is rounded by
         // 2^-24 of it, and once more when the margin is taken off.
         farthest_ = static_cast<float>(extent);
-        margin_ = 0x1p-22F * farthest_;
+        const float margin = 0x1p-22F * farthest_;
+        margins_ = {margin, margin, margin, 0};
     }
+    /// The fourth number of either end is 0.
     [[nodiscard]] SingleBox box(const Vector3& lo, const Vector3& hi) const {
         return {drawn_in(middle_, lo), drawn_in(hi, middle_)};
     }
@@ -110,12 +112,12 @@ private:
     [[nodiscard]] SingleBox::Four drawn_in(const Vector3& from, const Vector3& to) const {
         return (larger(smaller(singles_between(to, from), FourFloats(farthest_)),
                        FourFloats(-farthest_)) -
-                FourFloats(margin_))
+                FourFloats(margins_))
             .numbers();
     }
     Vector3 middle_{};
     float farthest_ = 0;
-    float margin_ = 0;
+    alignas(16) SingleBox::Four margins_{};
 };
 
 }  // namespace trisect::detail

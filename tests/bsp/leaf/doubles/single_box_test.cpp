@@ -110,5 +110,13 @@ TEST(SingleBox, OfAPlaceThatIsAPointIsNotEmpty) {
     EXPECT_TRUE(singles.box({0, 0, 0}, {1, 2, 3}).meets(singles.box({1, 2, 3}, {9, 9, 9})));
 }
 
+// Whoever counts there begins with nothing.
+TEST(SingleBox, OfAPlaceHasNothingAsTheFourthNumber) {
+    const SinglePlace singles({0, 0, 0}, {0x1p24, 1, 1});
+    const SingleBox box = singles.box({1, 0, 0}, {2, 1, 1});
+    EXPECT_EQ(box.lo[3], 0);
+    EXPECT_EQ(box.down[3], 0);
+}
+
 }  // namespace
 }  // namespace trisect::detail
