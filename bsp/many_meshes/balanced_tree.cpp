@@ -6,10 +6,12 @@
 #include <trisect/bsp/many_meshes/balanced_tree.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 #include <trisect/bsp/many_meshes/beside_boundary.h>
 #include <trisect/bsp/many_meshes/outlines/nested_formula.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/support/task_group.h>
 
 namespace trisect::detail {
@@ -222,44 +224,40 @@ BalancedTree::Pair BalancedTree::both(std::size_t facets, EvaluateStats& stats,
     return out;
 }
 
-// What is above comes from the store of the thread that made it, unless it lies behind what is
-// below already: mostly no other thread is free. What is below stays where it is: a thread that
-// waits makes other parts of the tree behind it, and takes them out.
+// What is above lies behind what is below where this thread comes to it, too. Else it comes from
+// the store of the thread that made it. That may be this one, since a thread that waits makes other
+// parts of the tree behind what it has, and takes them out.
 template <class Below, class Above>
 BalancedTree::Pair BalancedTree::both_in_parallel(const Below& below_by,
                                                   const Above& above_by) const {
-    std::optional<Solid> below;
-    std::optional<Solid> above;
-    std::optional<SettledParts> taken_out;  // what is above, from elsewhere
+    Pair out;
+    std::optional<std::pair<SettledParts, Solid>> moved;
+    std::atomic<bool> is_above_begun{false};
     FirstFailure failure;
-    const auto make_above = [&](Worker& w, bool in_place) {
-        above = or_nothing(w.common, above_by);
-        if (above && !in_place) taken_out = w.common.store().take_out(*above);
-    };
     fork_join(
         [&] {
-            Worker& w = worker();
-            const void* const waits_in = std::exchange(w.waits_in, nullptr);
-            failure.guard(0, [&] { make_above(w, waits_in == &failure); });
-            w.waits_in = waits_in;
+            if (is_above_begun.exchange(true)) return;
+            failure.guard(0, [&] {
+                const std::optional<Solid> made = or_nothing(above_by);
+                if (made) moved.emplace(common().store().take_out(*made), *made);
+            });
         },
         [&] {
-            Worker& w = worker();
-            failure.guard(1, [&] { below = or_nothing(w.common, below_by); });
-            w.waits_in = below ? &failure : nullptr;
+            failure.guard(1, [&] { out.first = or_nothing(below_by); });
+            if (is_above_begun.exchange(true)) return;
+            failure.guard(0, [&] { out.second = or_nothing(above_by); });
         });
-    worker().waits_in = nullptr;
     failure.rethrow();
-    if (!below || !above) return {};
-    if (taken_out) above = common().store().put(*std::move(taken_out), *above);
-    return {below, above};
+    HalfCounters& made = counters_of_thread<HalfCounters>;
+    ++(moved ? made.moved : made.in_place);
+    if (!moved || !out.first) return out;
+    return {out.first, common().store().put(std::move(moved->first), moved->second)};
 }
 
 // Without leaving anything of what failed in the store, where others may follow.
 template <class By>
-std::optional<OutlineStore::Solid> BalancedTree::or_nothing(CommonPart& common,
-                                                            const By& by) const {
-    OutlineStore& store = common.store();
+std::optional<OutlineStore::Solid> BalancedTree::or_nothing(const By& by) const {
+    OutlineStore& store = common().store();
     const Solid before = store.empty_solid(true);
     try {
         std::optional<Solid> out = by();
@@ -283,8 +281,8 @@ std::optional<OutlineStore::Solid> BalancedTree::common_of(std::size_t facets, E
 }
 
 // Of this thread.
-BalancedTree::Worker& BalancedTree::worker() const {
-    return workers_.local([&] { return std::make_unique<Worker>(meshes_, options_); });
+CommonPart& BalancedTree::common() const {
+    return common_.local([&] { return std::make_unique<CommonPart>(meshes_, options_); });
 }
 
 std::size_t BalancedTree::facets_of_terms(Terms terms) const {

@@ -20,6 +20,19 @@
 
 namespace trisect::detail {
 
+/// Of a thread, as Diagnostics<HalfCounters> has them (kernel/diagnostics.h): pairs of halves that
+/// another thread could have taken one of.
+struct HalfCounters {
+    std::uint64_t in_place = 0;  ///< both were made by the thread, one behind the other
+    std::uint64_t moved = 0;     ///< one comes from the store that it was made in
+
+    HalfCounters& operator-=(const HalfCounters& o) {
+        in_place -= o.in_place;
+        moved -= o.moved;
+        return *this;
+    }
+};
+
 /// Halves of it are worked on at the same time. What is found does not depend on threads.
 class BalancedTree {
 public:
@@ -37,7 +50,7 @@ public:
     /// Of all so far; in no order.
     template <class Each>
     void for_each_special(const Each& each) const {
-        workers_.for_each([&](const Worker& w) { each(w.common.special()); });
+        common_.for_each([&](const CommonPart& c) { each(c.special()); });
     }
 
 private:
@@ -78,22 +91,12 @@ private:
     template <class Below, class Above>
     [[nodiscard]] Pair both_in_parallel(const Below& below_by, const Above& above_by) const;
     template <class By>
-    [[nodiscard]] std::optional<Solid> or_nothing(CommonPart& common, const By& by) const;
+    [[nodiscard]] std::optional<Solid> or_nothing(const By& by) const;
     template <class Below, class Above>
     [[nodiscard]] std::optional<Solid> common_of(std::size_t facets, EvaluateStats& stats,
                                                  const Below& below_by,
                                                  const Above& above_by) const;
-    // What a thread works with.
-    struct Worker {
-        Worker(const ManyMeshes& meshes, const EvaluateSettings& options)
-            : common(meshes, options) {}
-        CommonPart common;
-        // What is above and below of which it has made what is below: that is the last solid of its
-        // store while it waits for the rest, and does nothing else.
-        const void* waits_in = nullptr;
-    };
-    [[nodiscard]] Worker& worker() const;
-    [[nodiscard]] CommonPart& common() const { return worker().common; }
+    [[nodiscard]] CommonPart& common() const;
 
     [[nodiscard]] std::size_t facets_of_terms(Terms terms) const;
     [[nodiscard]] std::size_t facets_of(Slots slots) const;
@@ -103,7 +106,7 @@ private:
     bool parallel_;
     std::size_t least_in_parallel_;  // facets
     OperandOrder order_;
-    mutable PerThread<Worker> workers_;
+    mutable PerThread<CommonPart> common_;
 };
 
 }  // namespace trisect::detail

@@ -12,7 +12,9 @@
 
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/bsp/expression.h>
+#include <trisect/bsp/many_meshes/balanced_tree.h>
 #include <trisect/bsp/solid.h>
+#include <trisect/kernel/diagnostics.h>
 #include <trisect/kernel/stop_scope.h>
 
 namespace {
@@ -66,6 +68,23 @@ void expect_same_as_cells(const Expression& expression) {
 TEST(Neighbours, IntersectedWithLargerOnes) {
     const Scene s = scene(20301, 150);
     expect_same_as_cells(s.large & s.small);
+}
+
+// The calling thread is at the root of the tree, and of what lies first in it.
+TEST(Neighbours, HalvesStayWhereTheyAreMade) {
+    using trisect::detail::HalfCounters;
+    const Scene s = scene(30101, 400);
+    const auto halves = [&](std::uint32_t threads) {
+        trisect::EvaluateOptions options;
+        options.threads = threads;
+        const trisect::Diagnostics<HalfCounters> diagnostics;
+        static_cast<void>(trisect::evaluate(s.large & s.small, options));
+        return diagnostics.counters();
+    };
+    const HalfCounters of_one = halves(1);
+    EXPECT_EQ(of_one.in_place + of_one.moved, 0U);
+    const HalfCounters of_two = halves(2);
+    EXPECT_GT(of_two.in_place + of_two.moved, 0U);
 }
 
 TEST(Neighbours, SubtractedFromLargerOnes) {
