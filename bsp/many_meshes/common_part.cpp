@@ -214,12 +214,16 @@ void CommonPart::Steps::reserve_for(std::size_t pairs) {
 
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
     if (!finder_.find(solids_[0], solids_[1], {near(0), near(1)}, threads_, stats)) return false;
-    const std::span<const CrossedFacets> pairs = finder_.pairs();
-    reserve_for(pairs.size());
-    if (threads_ != 1 && pairs.size() >= least_pairs_in_parts) return add_cuts_of(pairs);
-    for (const CrossedFacets& c : pairs) {
-        if (!segments_.find(c.places, c.crossing)) return false;
-        add_cuts(c, segments_.segments());
+    reserve_for(finder_.pair_count());
+    for (const CrossedFacetsFinder::Pairs& pairs : finder_.pairs()) {
+        if (threads_ != 1 && pairs.size() >= least_pairs_in_parts) {
+            if (!add_cuts_of(pairs)) return false;
+            continue;
+        }
+        for (const CrossedFacets& c : pairs) {
+            if (!segments_.find(c.places, c.crossing)) return false;
+            add_cuts(c, segments_.segments());
+        }
     }
     return true;
 }

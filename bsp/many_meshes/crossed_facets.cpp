@@ -17,7 +17,6 @@
 #include <trisect/bsp/many_meshes/outlines/small_map.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
-#include <trisect/kernel/support/touched_room.h>
 
 namespace trisect::detail {
 
@@ -112,7 +111,8 @@ bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& 
                                const Places& near, std::uint32_t threads, EvaluateStats& stats) {
     solids_ = {&first, &second};
     stats_ = &stats;
-    found_.clear();
+    found_.resize(1);
+    found_[0].clear();
     empty(known_);
     OutlineBox place = first.box;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -165,14 +165,11 @@ bool CrossedFacetsFinder::find_on_threads(std::size_t count, const Solve& solve)
             part.is_solved = solve(part.finder, c);
         part.finder.items_ = {};
     });
-    std::size_t found = 0;
-    for (const auto& p : parts) found += p->finder.found_.size();
-    reserve_touched(found_, found, options_.threads == 1 ? 1 : 0);
     bool is_solved = true;
     for (auto& p : parts) {
         is_solved = is_solved && p->is_solved;
         *stats_ += p->stats;
-        add(p->finder);
+        take_from(p->finder);
         p.reset();
     }
     return is_solved;
@@ -210,17 +207,28 @@ bool CrossedFacetsFinder::solve_cell(const PlacesInCells& cells, std::size_t num
     return solve(cell);
 }
 
-// What comes behind all of this.
-void CrossedFacetsFinder::add(const CrossedFacetsFinder& other) {
+// What comes behind all of this. Pairs that were found before go from their list.
+void CrossedFacetsFinder::take_from(CrossedFacetsFinder& other) {
     position_.add(other.position_);
+    Pairs& pairs = other.found_[0];
+    std::size_t kept = 0;
     auto many = other.many_cells_.begin();
-    for (std::uint32_t i = 0; i < other.found_.size(); ++i) {
-        const CrossedFacets& c = other.found_[i];
+    for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+        const CrossedFacets& c = pairs[i];
         const bool may_be_known = many != other.many_cells_.end() && *many == i;
         if (may_be_known) ++many;
-        if (!may_be_known || known_.insert({c.places[0], c.places[1]}, 0).second)
-            found_.push_back(c);
+        if (may_be_known && !known_.insert({c.places[0], c.places[1]}, 0).second) continue;
+        if (kept != i) pairs[kept] = c;
+        ++kept;
     }
+    pairs.resize(kept);
+    found_.push_back(std::move(pairs));
+}
+
+std::size_t CrossedFacetsFinder::pair_count() const {
+    std::size_t count = 0;
+    for (const Pairs& pairs : found_) count += pairs.size();
+    return count;
 }
 
 bool CrossedFacetsFinder::solve(Cell& cell) { return !begin(cell) || solve_begun(cell); }
@@ -504,9 +512,9 @@ void CrossedFacetsFinder::keep(const Pair& pair, const std::array<FacetCrossing:
     if (is_of_half && !meets(pair, ends)) return;
     if (is_of_half || (pair[0].is_shared() && pair[1].is_shared())) {
         if (!known_.insert({places[0], places[1]}, 0).second) return;
-        if (is_of_many_) many_cells_.push_back(static_cast<std::uint32_t>(found_.size()));
+        if (is_of_many_) many_cells_.push_back(static_cast<std::uint32_t>(found_[0].size()));
     }
-    CrossedFacets& made = found_.emplace_back();
+    CrossedFacets& made = found_[0].emplace_back();
     made.places = places;
     made.crossing.ends = ends;
     for (std::size_t k = 0; k < 2; ++k) made.crossing.facets[k] = facets[k]->number;

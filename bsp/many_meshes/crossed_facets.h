@@ -45,8 +45,10 @@ public:
     /// found is the same. Many facets go to all in any case.
     [[nodiscard]] bool find(const OutlinedSolid& first, const OutlinedSolid& second,
                             const Places& near, std::uint32_t threads, EvaluateStats& stats);
-    /// Each pair once.
-    [[nodiscard]] std::span<const CrossedFacets> pairs() const { return found_; }
+    using Pairs = PoolVector<CrossedFacets>;
+    /// Each pair once, in lists that follow each other.
+    [[nodiscard]] std::span<const Pairs> pairs() const { return found_; }
+    [[nodiscard]] std::size_t pair_count() const;
 
 private:
     // A facet, with the box of what may lie in the cell.
@@ -124,7 +126,7 @@ private:
     [[nodiscard]] std::array<Cell, 2> halves_of(const Cell& cell, const Splitter& splitter);
     [[nodiscard]] bool find_in_cells(const Places& near);
     [[nodiscard]] bool solve_cell(const PlacesInCells& cells, std::size_t number);
-    void add(const CrossedFacetsFinder& other);
+    void take_from(CrossedFacetsFinder& other);
     void take_halves(std::size_t solid, Cell& below, Cell& above, const Cell& cell,
                      const Splitter& splitter);
     [[nodiscard]] bool compare(const Cell& cell);
@@ -163,7 +165,7 @@ private:
     std::array<const OutlinedSolid*, 2> solids_{};
     SinglePlace place_;                      // where both are
     std::array<PoolVector<Item>, 2> items_;  // of a cell and of those that it is a part of
-    PoolVector<CrossedFacets> found_;
+    std::vector<Pairs> found_{1};
     FlatMap known_;                         // those that were found, where there are several cells
     PoolVector<std::uint32_t> many_cells_;  // by number in found_, of those that may be found again
     bool is_of_many_ = false;               // in a cell of a grid

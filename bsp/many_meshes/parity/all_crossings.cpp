@@ -94,8 +94,9 @@ bool AllCrossings::find_between(std::size_t first, std::size_t middle, std::size
         is_stopped_ = true;
         return false;
     }
-    out.reserve(finder.pairs.pairs().size());
-    for (const CrossedFacets& c : finder.pairs.pairs()) out.push_back(c.crossing);
+    out.reserve(finder.pairs.pair_count());
+    for (const CrossedFacetsFinder::Pairs& pairs : finder.pairs.pairs())
+        for (const CrossedFacets& c : pairs) out.push_back(c.crossing);
     return true;
 }
 
