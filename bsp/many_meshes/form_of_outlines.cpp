@@ -37,95 +37,136 @@ Parts parts_of(const OutlineStore& store) {
     return out;
 }
 
-constexpr std::uint32_t unused = ~std::uint32_t{0};
+// Fewer edges or vertices are not worth a part of their own.
+constexpr std::size_t least_edges = 8192;
+constexpr std::size_t least_vertices = 8192;
 
-// Fewer vertices or edges are not worth a part of their own.
-constexpr std::size_t least_values = 8192;
-
-// Those that are wanted, by vertex of all parts. Each is where an edge begins. Several threads mark
-// the same ones.
-PoolVector<std::uint32_t> wanted_vertices(const OutlinedFacets& outlined, const Parts& parts,
-                                          std::uint32_t threads) {
-    std::size_t all = 0;
-    for (const Part& p : parts) all += p.solid.vertices.size();
-    PoolVector<std::uint32_t> numbers(all, unused);
-    ParallelParts(outlined.edges.size(), threads, least_values)
-        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                std::atomic_ref(numbers[outlined.edges[i].from])
-                    .store(0, std::memory_order_relaxed);
-        });
-    return numbers;
-}
-
-// Without settled parts none is there twice.
-void take_those_of_one(OutlinedFacets& outlined, std::span<const OutlineVertex> vertices,
-                       std::span<std::uint32_t> numbers, std::uint32_t threads) {
-    const ParallelParts ranges(vertices.size(), threads, least_values);
-    PoolVector<std::size_t> next(ranges.count());
-    ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
-        const auto part = numbers.subspan(begin, end - begin);
-        next[range] = part.size() - static_cast<std::size_t>(std::ranges::count(part, unused));
-    });
-    const std::size_t count = std::accumulate(next.begin(), next.end(), std::size_t{0});
-    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
-    reserve_touched(outlined.vertices, count, threads);
-    outlined.vertices.resize(count);
-    ranges.for_each([&](std::size_t range, std::size_t begin, std::size_t end) {
-        std::size_t n = next[range];
-        for (std::size_t i = begin; i < end; ++i) {
-            if (numbers[i] == unused) continue;
-            outlined.vertices[n] = vertices[i];
-            numbers[i] = static_cast<std::uint32_t>(n++);
+// Vertices of all parts one after the other: those that edges have get numbers in this order, and
+// shared ones that of the first of them. Most are of whole facets, and not wanted.
+class WantedVertices {
+public:
+    explicit WantedVertices(const Parts& parts) : parts_(parts) {
+        for (const Part& p : parts) {
+            firsts_.push_back(count_);
+            count_ += p.solid.vertices.size();
         }
-    });
-}
+    }
 
-// Vertices of settled parts may be those of others, too.
-void take_those_of_several(OutlinedFacets& outlined, const Parts& parts,
-                           std::span<std::uint32_t> numbers, std::uint32_t threads) {
-    reserve_touched(outlined.vertices,
-                    numbers.size() - static_cast<std::size_t>(std::ranges::count(numbers, unused)),
-                    threads);
-    const auto for_each_wanted = [&](const auto& each) {
-        std::uint32_t* number = numbers.data();
-        for (const Part& p : parts)
-            for (const OutlineVertex& v : p.solid.vertices) {
-                if (*number != unused) each(v, *number);
-                ++number;
-            }
-    };
-    std::size_t shared_count = 0;
-    for_each_wanted(
-        [&](const OutlineVertex& v, std::uint32_t&) { shared_count += v.is_shared ? 1 : 0; });
-    FlatMap shared;
-    shared.reserve(shared_count);
-    for_each_wanted([&](const OutlineVertex& v, std::uint32_t& number) {
-        const auto next = static_cast<std::uint32_t>(outlined.vertices.size());
-        number = next;
-        if (v.is_shared)
-            number = static_cast<std::uint32_t>(
-                shared.insert(name_of(v), static_cast<std::int32_t>(next)).first);
-        if (number == next) outlined.vertices.push_back(v);
-    });
-}
-
-// Those vertices of parts that are wanted: most are of whole facets.
-void take_vertices(OutlinedFacets& outlined, const Parts& parts, std::uint32_t threads) {
-    PoolVector<std::uint32_t> numbers = wanted_vertices(outlined, parts, threads);
-    if (parts.size() == 1)
-        take_those_of_one(outlined, parts[0].solid.vertices, numbers, threads);
-    else
-        take_those_of_several(outlined, parts, numbers, threads);
-    ParallelParts(outlined.edges.size(), threads, least_values)
-        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                OutlinedFacets::Edge& e = outlined.edges[i];
-                e.from = numbers[e.from];
-                e.to = numbers[e.to];
-            }
+    // With numbers of vertices in place of places among those of all parts.
+    void take(OutlinedFacets& outlined, std::uint32_t threads) {
+        mark(outlined.edges, threads);
+        const ParallelParts parts(count_, threads, least_vertices);
+        ranges_.resize(parts.count());
+        parts.for_each([&](std::size_t number, std::size_t begin, std::size_t end) {
+            ranges_[number].begin = begin;
+            ranges_[number].end = end;
+            look_at(ranges_[number]);
         });
-}
+        std::size_t all = find_copies();
+        reserve_touched(outlined.vertices, all, threads);
+        if (parts.count() > 1) outlined.vertices.resize(all);
+        parts.for_each([&](std::size_t number, std::size_t, std::size_t) {
+            write(ranges_[number], outlined.vertices);
+        });
+        for (const Copy& c : copies_) numbers_[c.copy] = numbers_[c.of];
+        ParallelParts(outlined.edges.size(), threads, least_edges)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    OutlinedFacets::Edge& e = outlined.edges[i];
+                    e.from = numbers_[e.from];
+                    e.to = numbers_[e.to];
+                }
+            });
+    }
+
+private:
+    static constexpr std::uint32_t unused = ~std::uint32_t{0};
+    static constexpr std::uint32_t is_copy = unused - 1;
+    struct Shared {
+        std::uint32_t place = 0;
+        const OutlineVertex* vertex = nullptr;
+    };
+    struct Range {
+        std::size_t begin = 0;
+        std::size_t end = 0;
+        std::size_t first = 0;  // number
+        std::size_t count = 0;  // of those that get one
+        std::vector<Shared> shared;
+    };
+    struct Copy {
+        std::uint32_t copy = 0;
+        std::uint32_t of = 0;
+    };
+
+    // Each is where an edge begins. Several threads mark the same ones.
+    void mark(std::span<const OutlinedFacets::Edge> edges, std::uint32_t threads) {
+        numbers_.assign(count_, unused);
+        ParallelParts(edges.size(), threads, least_edges)
+            .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+                for (const OutlinedFacets::Edge& e : edges.subspan(begin, end - begin))
+                    std::atomic_ref(numbers_[e.from]).store(0, std::memory_order_relaxed);
+            });
+    }
+    // Calls each(place, vertex) for those of a range.
+    template <class Each>
+    void for_each_wanted(const Range& range, const Each& each) const {
+        auto part = static_cast<std::size_t>(std::ranges::upper_bound(firsts_, range.begin) -
+                                             firsts_.begin() - 1);
+        for (std::size_t at = range.begin; at < range.end; ++part) {
+            const std::span<const OutlineVertex> vertices = parts_[part].solid.vertices;
+            const std::size_t end = std::min(range.end, firsts_[part] + vertices.size());
+            for (; at < end; ++at)
+                if (numbers_[at] != unused)
+                    each(static_cast<std::uint32_t>(at), vertices[at - firsts_[part]]);
+        }
+    }
+    void look_at(Range& range) const {
+        for_each_wanted(range, [&](std::uint32_t place, const OutlineVertex& v) {
+            ++range.count;
+            if (v.is_shared) range.shared.push_back({place, &v});
+        });
+    }
+    // How many there are without them.
+    std::size_t find_copies() {
+        std::size_t shared_count = 0;
+        for (const Range& r : ranges_) shared_count += r.shared.size();
+        FlatMap places;
+        places.reserve(shared_count);
+        std::size_t next = 0;
+        for (Range& r : ranges_) {
+            for (const Shared& s : r.shared) {
+                const auto [first, is_new] =
+                    places.insert(name_of(*s.vertex), static_cast<std::int32_t>(s.place));
+                if (is_new) continue;
+                copies_.push_back({s.place, static_cast<std::uint32_t>(first)});
+                numbers_[s.place] = is_copy;
+                --r.count;
+            }
+            r.first = next;
+            next += r.count;
+        }
+        return next;
+    }
+    void write(const Range& range, PoolVector<OutlineVertex>& vertices) {
+        std::size_t next = range.first;
+        for_each_wanted(range, [&](std::uint32_t place, const OutlineVertex& v) {
+            if (numbers_[place] == is_copy) return;
+            numbers_[place] = static_cast<std::uint32_t>(next);
+            if (next == vertices.size())
+                vertices.push_back(v);
+            else
+                vertices[next] = v;
+            ++next;
+        });
+    }
+
+    const Parts& parts_;
+    std::size_t count_ = 0;
+    std::vector<std::size_t> firsts_;    // by part
+    PoolVector<std::uint32_t> numbers_;  // by place
+    std::vector<Range> ranges_;
+    std::vector<Copy> copies_;
+};
 
 // A facet of which there is a part.
 struct CutFacet {
@@ -268,7 +309,7 @@ UndividedMeshes form_of(const OutlineStore& store, const ManyMeshes& meshes,
     auto outlined = std::make_shared<OutlinedFacets>();
     const Parts parts = parts_of(store);
     add_cut_facets(*outlined, parts, sort_facets(parts, meshes, out), meshes, threads);
-    take_vertices(*outlined, parts, threads);
+    WantedVertices(parts).take(*outlined, threads);
     out.outlined = std::move(outlined);
     out.crossings = std::make_shared<const Crossings>(operands);
     out.tree = std::move(tree);
