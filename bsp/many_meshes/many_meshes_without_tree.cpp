@@ -315,10 +315,13 @@ bool are_many_meshes(const Residual::Ref& formula, const SolidStates& solids,
     const Crowd crowd = crowd_of(boxes);
     if (crowd == Crowd::All || crowd == Crowd::InFirst) return true;
     const bool few = are_few(solids);
+    const bool is_flat = crossings_of(*formula, solids).has_value();
+    // What says it of nested ones is found sooner than what comes next.
+    if (!is_flat && !are_mostly_beside(*formula, solids)) return true;
     if (do_stand(boxes) || (few && may_touch_or_are_apart(boxes))) return true;
-    if (are_mostly_beside(*formula, solids)) return false;
+    if (!is_flat || are_mostly_beside(*formula, solids)) return false;
     // Few ones have been found not to touch.
-    if (!crossings_of(*formula, solids) || (!few && may_touch_or_are_apart(boxes))) return true;
+    if (!few && may_touch_or_are_apart(boxes)) return true;
     return crowd == Crowd::Near || meets_many(boxes) || are_thin(*formula, solids);
 }
 
