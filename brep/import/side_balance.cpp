@@ -101,13 +101,14 @@ public:
         : first_(static_cast<std::uint32_t>(first)),
           size_(static_cast<std::uint32_t>(end - first)),
           point_count_(point_count),
-          rows_(end - first + 1),
+          more_rows_(size_ < few_rows_.size() ? PoolArray<Row>() : PoolArray<Row>(end - first + 1)),
+          rows_(size_ < few_rows_.size() ? few_rows_.data() : more_rows_.get()),
           counts_(end - first + 1) {}
 
     // Of triangles that are corners of all points.
     [[gnu::noinline]] void add_all(std::span<const std::uint32_t> corners) {
         // Bytes may alias anything: what the loop reads must not be read through `this`.
-        Ends* const rows = rows_.get()->ends.data();
+        Ends* const rows = rows_->ends.data();
         std::uint8_t* const counts = counts_.data();
         std::vector<LateEnds>& late = late_;
         const auto put = [rows, counts, &late](std::uint64_t v, std::uint64_t to,
@@ -138,7 +139,7 @@ public:
     // The same where there are others, too. Whether a triangle has a corner here is foreseen
     // mostly, since neighbours follow each other; which one it is is not, and hence no branch.
     [[gnu::noinline]] void add_own(std::span<const std::uint32_t> corners) {
-        Ends* const rows = rows_.get()->ends.data();
+        Ends* const rows = rows_->ends.data();
         std::uint8_t* const counts = counts_.data();
         std::vector<LateEnds>& late = late_;
         const std::uint32_t first = first_;
@@ -174,7 +175,7 @@ public:
 
     [[nodiscard]] bool cancel() {
         std::vector<std::uint32_t> unclear;
-        list_unclear(rows_.get(), counts_.data(), size_, unclear);
+        list_unclear(rows_, counts_.data(), size_, unclear);
         std::ranges::sort(late_, {}, &LateEnds::vertex);
         // Those with late ends, once each: their rows may be clear by themselves.
         for (std::size_t i = 0; i < late_.size(); ++i)
@@ -218,7 +219,9 @@ private:
     std::uint32_t first_;
     std::uint32_t size_;
     std::size_t point_count_;
-    PoolArray<Row> rows_;  // of the points from the first one on
+    std::array<Row, 256> few_rows_;  // of a small mesh: new memory would cost more than all else
+    PoolArray<Row> more_rows_;
+    Row* rows_;  // of the points from the first one on
     std::vector<std::uint8_t> counts_;
     std::vector<LateEnds> late_;
     std::vector<std::int32_t> net_;  // of each end: sides that leave for it less those that come
