@@ -8,6 +8,7 @@
 #include <span>
 
 #include <trisect/kernel/support/pool_allocator.h>
+#include <trisect/kernel/support/touched_room.h>
 
 namespace trisect::detail {
 
@@ -27,15 +28,16 @@ public:
         keys_.clear();
         added_.clear();
     }
-    /// For so many.
-    void reserve(std::size_t items) {
-        keys_.reserve(items);
-        added_.reserve(items);
+    /// For so many. `threads` as for ParallelParts, which make the memory ready.
+    void reserve(std::size_t items, std::uint32_t threads) {
+        reserve_touched(keys_, items, threads);
+        reserve_touched(added_, items, threads);
     }
     void add(std::uint32_t key, const Item& item) {
         keys_.push_back(key);
         added_.push_back(item);
     }
+    [[nodiscard]] std::size_t size() const { return added_.size(); }
     /// To be called when all were added.
     void sort(std::size_t limit) {
         if (place_.size() < limit) place_.resize(limit);

@@ -30,6 +30,8 @@
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/parallel_parts.h>
 #include <trisect/kernel/support/per_thread.h>
+#include <trisect/kernel/support/task_group.h>
+#include <trisect/kernel/support/touched_room.h>
 
 namespace trisect::detail {
 
@@ -39,6 +41,9 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 
 // Segments of fewer pairs are found on one thread.
 constexpr std::size_t least_pairs_in_parts = 1024;
+
+// Fewer stops are sorted sooner than another thread begins.
+constexpr std::size_t least_sorted_at_once = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -61,11 +66,9 @@ public:
         threads_ = how.threads;
         first_known_ = second.vertices;
         if (!find_cuts(stats)) return std::nullopt;
-        stops_.sort(store_.edges().size());
-        for (std::size_t i = 0; i < 2; ++i) {
-            cuts_[i].sort(solids_[i].facets.size());
+        sort_all();
+        for (std::size_t i = 0; i < 2; ++i)
             if (!find_sides(i)) return std::nullopt;
-        }
         Solid out = keep(first, second);
         // Where sides were known beforehand nothing is compared any more.
         if (known_.empty()) store_.tidy(out);
@@ -105,6 +108,7 @@ private:
     }
     [[nodiscard]] bool find_cuts(EvaluateStats& stats);
     void reserve_for(std::size_t pairs);
+    void sort_all();
     [[nodiscard]] bool add_cuts_of(std::span<const CrossedFacets> pairs);
     void add_cuts(const CrossedFacets& pair, std::span<const CommonSegment> segments);
     void add_cut(const std::array<std::uint32_t, 2>& places, const CommonSegment& segment,
@@ -147,6 +151,7 @@ private:
     }
 
     const ManyMeshes& meshes_;
+    std::uint32_t threads_ = 1;  // as for ParallelParts
     SpecialPosition special_;
     ShiftedPoints exact_;
     OutlineStore store_;
@@ -163,7 +168,6 @@ private:
     std::array<std::size_t, 2> near_count_{};        // of these
     std::array<Buckets<Cut>, 2> cuts_;               // by place
     VertexSides sides_;  // of vertices of facets that are near: of the other solid
-    std::uint32_t threads_ = 1;
     Known known_;
     std::size_t first_known_ = 0;  // that vertex of the store
     PoolVector<std::uint32_t> kept_made_;
@@ -204,12 +208,27 @@ void CommonPart::Steps::reserve_for(std::size_t pairs) {
     PoolVector<FacetCrossing>& lines = store_.lines();
     if (const std::size_t wanted = lines.size() + pairs; wanted > lines.capacity())
         lines.reserve(wanted + wanted / 2);
+    if (pairs > many_pairs) {
+        reserve_touched(lines, pairs, threads_);
+        made_by_name_.reserve(pairs);
+        reserve_touched(made_, pairs, threads_);
+        stops_.reserve(2 * pairs, threads_);
+        for (auto& cuts : cuts_) cuts.reserve(pairs, threads_);
+    }
     for (OutlinedSolid& s : solids_) s.lines = lines;
-    if (pairs <= many_pairs) return;
-    made_by_name_.reserve(pairs);
-    made_.reserve(pairs);
-    stops_.reserve(2 * pairs);
-    for (auto& cuts : cuts_) cuts.reserve(pairs);
+}
+
+void CommonPart::Steps::sort_all() {
+    const auto sort_stops = [&] { stops_.sort(store_.edges().size()); };
+    const auto sort_cuts = [&] {
+        for (std::size_t i = 0; i < 2; ++i) cuts_[i].sort(solids_[i].facets.size());
+    };
+    if (threads_ != 1 && stops_.size() >= least_sorted_at_once) {
+        both_at_once(sort_stops, sort_cuts);
+    } else {
+        sort_stops();
+        sort_cuts();
+    }
 }
 
 bool CommonPart::Steps::find_cuts(EvaluateStats& stats) {
