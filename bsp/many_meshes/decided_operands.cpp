@@ -50,7 +50,8 @@ public:
                     large_terms_[n].push_back(t);
     }
 
-    [[nodiscard]] bool may_go(std::uint32_t leaf) {
+    // Safe to call from many threads.
+    [[nodiscard]] bool may_go(std::uint32_t leaf) const {
         const NestedFormula::Node& node = nested_.node(leaf);
         const auto slot = static_cast<std::size_t>(node.slot);
         // What is left is what it has far out, which must leave its operation alone.
@@ -90,7 +91,7 @@ private:
     // With the complements that are above it.
     [[nodiscard]] bool holds_far_out(std::size_t slot) const { return open_far_out_[slot] != 0; }
     // Of a term of large operands; -1 where it may have both.
-    [[nodiscard]] int value_around(std::uint32_t number, const OutlineBox& box) {
+    [[nodiscard]] int value_around(std::uint32_t number, const OutlineBox& box) const {
         const NestedFormula::Node& node = nested_.node(number);
         if (node.slot >= 0) {
             const auto slot = static_cast<std::size_t>(node.slot);
@@ -123,10 +124,14 @@ std::vector<std::uint8_t> decided_operands(const NestedFormula& nested,
                                            std::uint32_t threads) {
     std::vector<std::uint8_t> out(sources.size(), 0);
     if (out.size() < least_operands) return out;
-    Decider decider(nested, sources, open_far_out, threads);
-    for (std::uint32_t n = 0; n < nested.size(); ++n)
-        if (const std::int32_t slot = nested.node(n).slot; slot >= 0)
-            out[static_cast<std::size_t>(slot)] = decider.may_go(n) ? 1 : 0;
+    const Decider decider(nested, sources, open_far_out, threads);
+    constexpr std::size_t least_nodes = 4096;  // for a thread
+    ParallelParts(nested.size(), threads, least_nodes)
+        .for_each([&](std::size_t, std::size_t begin, std::size_t end) {
+            for (auto n = static_cast<std::uint32_t>(begin); n < end; ++n)
+                if (const std::int32_t slot = nested.node(n).slot; slot >= 0)
+                    out[static_cast<std::size_t>(slot)] = decider.may_go(n) ? 1 : 0;
+        });
     return out;
 }
 
