@@ -104,12 +104,16 @@ private:
 
     void count_parents(const ExpressionNode& root) {
         std::vector<const ExpressionNode*> pending{&root};
+        std::size_t leaves = 0;
         while (!pending.empty()) {
             const ExpressionNode& n = *pending.back();
             pending.pop_back();
+            leaves += n.kind == ExpressionNode::Kind::Leaf ? 1 : 0;
             for (const auto& c : n.children)
                 if (c.use_count() == 1 || ++parents_[c.get()] == 1) pending.push_back(c.get());
         }
+        slots_.reserve(leaves);
+        meshes_.reserve(leaves);
     }
 
     bool is_shared(const ExpressionNode* node) const {
