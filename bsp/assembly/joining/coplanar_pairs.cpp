@@ -47,8 +47,7 @@ void CoplanarPairs::list_candidates() {
 
 // Each table has the edges with some ends.
 void CoplanarPairs::find_pairs(std::uint32_t threads) {
-    const std::size_t count =
-        parts_by_thread(candidates_.size(), threads, least_edges / 2).count();
+    const std::size_t count = parts_by_thread(candidates_.size(), threads, least_edges / 2).count();
     std::vector<Table> tables(count);
     if (count == 1) {
         Table& all = tables[0];
