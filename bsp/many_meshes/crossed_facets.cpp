@@ -13,7 +13,6 @@
 #include <vector>
 
 #include <trisect/bsp/many_meshes/outlines/box_sum.h>
-#include <trisect/bsp/many_meshes/outlines/part_halves.h>
 #include <trisect/bsp/many_meshes/outlines/small_map.h>
 #include <trisect/kernel/support/deep_recursion.h>
 #include <trisect/kernel/support/parallel_parts.h>
@@ -110,6 +109,7 @@ private:
 bool CrossedFacetsFinder::find(const OutlinedSolid& first, const OutlinedSolid& second,
                                const Places& near, std::uint32_t threads, EvaluateStats& stats) {
     solids_ = {&first, &second};
+    halves_ = {PartHalves(first), PartHalves(second)};
     stats_ = &stats;
     found_.resize(1);
     found_[0].clear();
@@ -158,6 +158,7 @@ bool CrossedFacetsFinder::find_on_threads(std::size_t count, const Solve& solve)
         parts[range] = std::make_unique<Part>(meshes_, options_);
         Part& part = *parts[range];
         part.finder.solids_ = solids_;
+        part.finder.halves_ = halves_;
         part.finder.place_ = place_;
         part.finder.stats_ = &part.stats;
         part.finder.is_of_many_ = true;
@@ -177,9 +178,8 @@ bool CrossedFacetsFinder::find_on_threads(std::size_t count, const Solve& solve)
 
 // One item, or one for each half. Returns what comes behind.
 auto CrossedFacetsFinder::list(std::size_t solid, std::uint32_t place, Item* next) const -> Item* {
-    const OutlinedSolid& s = *solids_[solid];
-    const OutlineBox& box = s.boxes[place];
-    const auto halves = halves_of_part(s, s.facets[place], box);
+    const OutlineBox& box = solids_[solid]->boxes[place];
+    const auto halves = halves_[solid].of(solids_[solid]->facets[place], box);
     if (!halves) {
         *next = Item(place_.box(box.lo, box.hi), place);
         return next + 1;

@@ -13,6 +13,7 @@
 #include <trisect/bsp/cells/work_budget.h>
 #include <trisect/bsp/leaf/doubles/single_box.h>
 #include <trisect/bsp/many_meshes/outlines/outlined_solid.h>
+#include <trisect/bsp/many_meshes/outlines/part_halves.h>
 #include <trisect/bsp/many_meshes/places_in_cells.h>
 #include <trisect/bsp/many_meshes/special_pairs.h>
 #include <trisect/bsp/many_meshes/whole_facet_pairs.h>
@@ -163,6 +164,7 @@ private:
     SpecialPosition& position_;
     SpecialPairs special_;
     std::array<const OutlinedSolid*, 2> solids_{};
+    std::array<PartHalves, 2> halves_;
     SinglePlace place_;                      // where both are
     std::array<PoolVector<Item>, 2> items_;  // of a cell and of those that it is a part of
     std::vector<Pairs> found_{1};

@@ -36,7 +36,7 @@ public:
         solid.vertices = vertices_;
         solid.edges = edges_;
         solid.box = {{0, 0, 0}, {length_of_solid, 1, 1}};
-        return halves_of_part(solid, facet, box_);
+        return PartHalves(solid).of(facet, box_);
     }
 
 private:
