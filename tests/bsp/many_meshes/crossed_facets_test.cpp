@@ -98,7 +98,8 @@ TEST(CrossedFacets, OfLongFacetsAreFewOnceTheirMiddleIsGone) {
     const auto of_eight = static_cast<double>(pairs_of(8));
     const auto of_many = static_cast<double>(pairs_of(32));
     EXPECT_GT(of_eight, 0);
-    EXPECT_LT(of_many, of_eight * std::pow(4, 1.4)) << of_eight << ' ' << of_many;
+    // Four times as many; with the boxes of whole parts 17 times as many pairs.
+    EXPECT_LT(of_many, 11 * of_eight) << of_eight << ' ' << of_many;
 }
 
 }  // namespace
