@@ -178,11 +178,25 @@ bool are_mostly_across_axes(const SolidStates& solids) {
 // Of so few facets leaves are faster, but not exact ones.
 constexpr std::size_t facets_of_tetrahedron = 4;
 
+// Of two meshes: whether one leaf has all facets, which are all across the axes. Then a grid of
+// bits is faster than crossings.
+bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
+    std::uint64_t all = 0;
+    for (const auto& s : solids) all += s->root().node->size();
+    return all <= std::uint64_t{grid_leaf} * options.leaf_polygons &&
+           are_mostly_across_axes(solids) && std::ranges::all_of(solids, [](const auto& s) {
+               const PolygonList& polygons = s->root().node->polygons();
+               return std::all_of(polygons.begin(), polygons.end(),
+                                  [](const PolygonRef& r) { return is_axis_polygon(r); });
+           });
+}
+
 bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
                         const EvaluateSettings& options) {
-    return are_two_meshes(formula, solids, options) ||
-           (are_two_meshes(formula, solids, options, facets_of_tetrahedron) &&
-            are_apart_or_touch(solids) && !are_mostly_across_axes(solids));
+    return (are_two_meshes(formula, solids, options) ||
+            (are_two_meshes(formula, solids, options, facets_of_tetrahedron) &&
+             are_apart_or_touch(solids) && !are_mostly_across_axes(solids))) &&
+           !are_one_grid(solids, options);
 }
 
 // Which are one leaf, if they are of one axis.
@@ -233,7 +247,8 @@ constexpr std::array all_rules{
         "two meshes",
         "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, or 4 where they touch or "
         "are apart and not all across the axes, without an index, of a size, or of which the "
-        "larger one is not large and was not compared so before; no work limit",
+        "larger one is not large and was not compared so before; not 8 leaves or less whose facets "
+        "are all across the axes; no work limit",
         "uncrossed facets, crossings", &Stats::filtered_leaves,
         FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},
     Rule{"outlines of prisms",

@@ -251,6 +251,24 @@ TEST(AxisParallelLeaves, CubesOfOneColourLeaveTheOthers) {
     }
 }
 
+// Two meshes whose bars cross all others of the other one: the same grid, no search for pairs.
+TEST(AxisParallelLeaves, BarsOfTwoMeshesThatCrossAreOneGrid) {
+    constexpr std::int64_t bars = 12;
+    LatticeMesh along_x;
+    LatticeMesh along_y;
+    for (std::int64_t i = 0; i < bars; ++i) {
+        add_box(along_x, {0, 10 * i + 3, 0}, {10 * bars, 10 * i + 7, 4});
+        add_box(along_y, {10 * i + 3, -5, 1}, {10 * i + 7, 10 * bars + 5, 3});
+    }
+    const Expression x = Solid::from_lattice_mesh(along_x);
+    const Expression y = Solid::from_lattice_mesh(along_y);
+    EvaluateStats stats;
+    const Solid both = evaluate(x & y, {}, &stats);
+    EXPECT_EQ(stats.grid_leaves, 1U);
+    EXPECT_EQ(stats.pairs_boxes, 0U);
+    EXPECT_EQ(exact_volume(both.to_brep()), ExactRational(bars * bars * 4 * 4 * 2));
+}
+
 // Small cells lie under the common part of several plates, where all of them are one slab.
 TEST(LeafScenes, PlatesThatShareACoverAreOneSlabUnderIt) {
     std::vector<Expression> plates;
