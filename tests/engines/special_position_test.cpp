@@ -275,11 +275,13 @@ PolygonMesh half_ball(bool upper, std::uint32_t middle) {
 }
 
 // A lower half and an upper one that lie across each other: in the middle a face looks up and
-// another one down, and no move of their common corner takes both outwards.
+// another one down, and no move of their common corner takes both outwards. With a ball above them:
+// what is all across the axes would be a grid.
 Solid crossed_halves(double x, double y) {
     const Expression lower = solid(trisect::make_box({x - 2, y - 2, -2}, {x, y + 2, 0}));
     const Expression upper = solid(trisect::make_box({x - 2, y - 2, 0}, {x + 2, y, 2}));
-    return solid(evaluate(lower | upper).to_mesh());
+    const Expression ball = solid(moved(trisect::make_icosphere(0.125, 0), {x, y, 5}));
+    return solid(evaluate(lower | upper | ball).to_mesh());
 }
 
 TEST(SpecialPosition, MeshesThatNoMoveServes) {
