@@ -89,7 +89,8 @@ private:
         detail::FormulaOperands operands(t, options_);
         std::erase_if(same, [&](std::size_t i) {
             return !detail::are_two_meshes(translations_[i].formula, operands.states(),
-                                           operands.settings());
+                                           operands.settings()) ||
+                   detail::are_one_grid(operands.states(), operands.settings());
         });
         if (same.size() >= 2) evaluate_together(same, operands);
     }

@@ -178,8 +178,8 @@ bool are_mostly_across_axes(const SolidStates& solids) {
 // Of so few facets leaves are faster, but not exact ones.
 constexpr std::size_t facets_of_tetrahedron = 4;
 
-// Of two meshes: whether one leaf has all facets, which are all across the axes. Then a grid of
-// bits is faster than crossings.
+}  // namespace
+
 bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
@@ -190,6 +190,8 @@ bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
                                   [](const PolygonRef& r) { return is_axis_polygon(r); });
            });
 }
+
+namespace {
 
 bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
                         const EvaluateSettings& options) {
