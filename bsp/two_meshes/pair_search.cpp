@@ -21,6 +21,8 @@
 #include <trisect/bsp/divide/reference_points.h>
 #include <trisect/bsp/leaf/doubles/filtered_facets.h>
 #include <trisect/bsp/leaf/doubles/filtered_pairs.h>
+#include <trisect/bsp/leaf/doubles/part_near_plane.h>
+#include <trisect/bsp/two_meshes/axis_plane_pairs.h>
 #include <trisect/bsp/two_meshes/corner_pairs.h>
 #include <trisect/bsp/two_meshes/facet_clip.h>
 #include <trisect/bsp/two_meshes/shift_along.h>
@@ -639,10 +641,15 @@ bool PairFinder::has_corner(const Cell& cell, const FilteredFacet& f, std::size_
 
 ShiftedPair PairFinder::relate(LeafIndex first, LeafIndex second, const CommonCorners& common) {
     const InfinitesimalShift& shift = search_.operands.shift;
+    const PolygonRef& a = facets_[first].ref;
+    const PolygonRef& b = facets_[second].ref;
+    if (common.count < 3)
+        if (const auto known = relate_across_axis(corners_of(a), corners_of(b), shift))
+            return *known;
     if (shift.moves != nullptr)
         if (const auto known = relate_at_corners(facets_, first, second, common, shift))
             return *known;
-    return relate_shifted(corners_of(facets_[first].ref), corners_of(facets_[second].ref), shift);
+    return relate_shifted(corners_of(a), corners_of(b), shift);
 }
 
 // A pair that doubles leave open. Both facets are listed in the cell of a common corner, so others
@@ -650,6 +657,10 @@ ShiftedPair PairFinder::relate(LeafIndex first, LeafIndex second, const CommonCo
 void PairFinder::decide(LeafIndex first, LeafIndex second, const Cell& cell) {
     const CommonCorners common(facets_[first], facets_[second]);
     if (common.count > 0 && !has_corner(cell, facets_[first], common.any())) return;
+    if (common.count == 0 &&
+        are_apart_near_planes({facets_[first].corners, facets_.plane(first)},
+                              {facets_[second].corners, facets_.plane(second)}))
+        return;
     const PolygonRef& a = facets_[first].ref;
     const PolygonRef& b = facets_[second].ref;
     const ShiftedPair pair = relate(first, second, common);

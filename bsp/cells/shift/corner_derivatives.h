@@ -78,7 +78,7 @@ public:
     /// Of the value of the first facet's plane at the second one's corner i.
     [[nodiscard]] int of_corner(const Facet<N>& first, std::size_t i) const {
         const int sign = numbers_.sign(dot<N>(first.normal, moves_[i]));
-        return sign != 0 ? sign : shift_.along(signs_of(numbers_, first.normal));
+        return sign != 0 ? sign : sign_along(numbers_, shift_, first.normal);
     }
     /// Of the value of the second facet's plane at a point of the first mesh.
     [[nodiscard]] int of_plane(const Facet<N>& second, const Lengths<N>& point) const {

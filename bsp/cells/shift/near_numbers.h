@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include <trisect/kernel/coordinate.h>
 #include <trisect/kernel/number/error_bounds.h>
@@ -61,15 +62,18 @@ public:
     }
 
     /// Where errors leave it open, is_open() is true from then on, unless the number is 0 by
-    /// `is_zero`.
-    template <class IsZero>
-    [[nodiscard]] int sign(const Bounded& v, const IsZero& is_zero) const {
+    /// `is_zero`, or `exactly` gives one with its sign.
+    template <class IsZero, class Exactly>
+    [[nodiscard]] int sign(const Bounded& v, const IsZero& is_zero, const Exactly& exactly) const {
         const int s = certain_sign(v.value, bound_slack * v.error);
-        if (s == 0 && v.error != 0 && !is_zero()) is_open_ = true;
-        return s;
+        if (s != 0 || v.error == 0 || is_zero()) return s;
+        const std::optional<double> exact = exactly();
+        is_open_ = is_open_ || !exact;
+        return exact ? certain_sign(*exact, 0) : 0;
     }
     [[nodiscard]] int sign(const Bounded& v) const {
-        return sign(v, [] { return false; });
+        return sign(
+            v, [] { return false; }, [] { return std::optional<double>(); });
     }
     /// Components of a facet's normal across an edge along an axis are 0.
     static void set_zeros(const std::array<std::array<double, 3>, 3>& corners,

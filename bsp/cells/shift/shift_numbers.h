@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <type_traits>
 
+#include <trisect/bsp/cells/infinitesimal_shift.h>
 #include <trisect/bsp/cells/shift/near_numbers.h>
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
 #include <trisect/kernel/number/dyadic.h>
@@ -25,8 +28,8 @@ int sign_of(const WideInt<N>& v) {
 // What both kinds of integers have in common.
 template <class N>
 struct Integers {
-    template <class Value, class... IsZero>
-    [[nodiscard]] static int sign(const Value& v, const IsZero&...) {
+    template <class Value, class... IfOpen>
+    [[nodiscard]] static int sign(const Value& v, const IfOpen&...) {
         return sign_of(v);
     }
     template <class Corners, class Normal>
@@ -130,6 +133,81 @@ std::array<int, 3> signs_of(const N& numbers, const Normal<N>& n) {
     return {numbers.sign(n[0]), numbers.sign(n[1]), numbers.sign(n[2])};
 }
 
+// The sign of the product of a vector and the move along the axes. Components behind the first one
+// that is not 0 are not looked at; one that doubles leave open is `exactly(k)`.
+template <class N, class Exactly>
+int sign_along(const N& numbers, const InfinitesimalShift& shift, const Normal<N>& n,
+               const Exactly& exactly) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t k = shift.axes[i];
+        const int s = numbers.sign(
+            n[k], [] { return false; }, [&] { return exactly(k); });
+        if (s != 0) return s * shift.signs[i];
+    }
+    return 0;
+}
+template <class N>
+int sign_along(const N& numbers, const InfinitesimalShift& shift, const Normal<N>& n) {
+    return sign_along(numbers, shift, n, [](std::size_t) { return std::optional<double>(); });
+}
+
+// Differences of doubles in integers; nothing where one is not whole.
+inline std::optional<Lengths<WholeNumbers>> whole_difference(const Lengths<NearNumbers>& to,
+                                                             const Lengths<NearNumbers>& from) {
+    constexpr double most = 0x1p53;
+    Lengths<WholeNumbers> out;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!(std::fabs(to[k]) <= most && std::fabs(from[k]) <= most)) return std::nullopt;
+        const auto a = static_cast<std::int64_t>(to[k]);
+        const auto b = static_cast<std::int64_t>(from[k]);
+        if (static_cast<double>(a) != to[k] || static_cast<double>(b) != from[k])
+            return std::nullopt;
+        out[k] = a - b;
+    }
+    return out;
+}
+
+// det(a - d, b - d, c - d) in integers, for what doubles leave open: off by less than 2^-51 of it.
+// Nothing of points that are not whole.
+template <class N>
+std::optional<double> exact_determinant(const Lengths<N>& a, const Lengths<N>& b,
+                                        const Lengths<N>& c, const Lengths<N>& d) {
+    if constexpr (std::is_same_v<N, NearNumbers>) {
+        const auto u = whole_difference(a, d);
+        const auto v = whole_difference(b, d);
+        const auto w = whole_difference(c, d);
+        if (!u || !v || !w) return std::nullopt;
+        constexpr std::uint64_t short_length = std::uint64_t{1} << 41;
+        std::uint64_t all = 0;
+        for (const auto* row : {&*u, &*v, &*w})
+            for (const std::int64_t x : *row) all |= static_cast<std::uint64_t>(x < 0 ? -x : x);
+        const Normal<WholeNumbers> n = cross<WholeNumbers>(*v, *w);
+        if (all >= short_length) return dot<WholeNumbers>(n, *u).to_double();
+        // Minors are below 2^83, the sum of their products with lengths below 3 · 2^124.
+        Int128 sum = 0;
+        for (std::size_t k = 0; k < 3; ++k) sum += n[k] * (*u)[k];
+        return static_cast<double>(sum);
+    } else {
+        return std::nullopt;
+    }
+}
+
+// A component of (b - a) × (d - c), likewise.
+template <class N>
+std::optional<double> exact_product(const Lengths<N>& a, const Lengths<N>& b, const Lengths<N>& c,
+                                    const Lengths<N>& d, std::size_t k) {
+    if constexpr (std::is_same_v<N, NearNumbers>) {
+        const auto u = whole_difference(b, a);
+        const auto v = whole_difference(d, c);
+        if (!u || !v) return std::nullopt;
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        return static_cast<double>(WholeNumbers::minor((*u)[i], (*v)[j], (*u)[j], (*v)[i]));
+    } else {
+        return std::nullopt;
+    }
+}
+
 template <class N>
 struct Facet {
     std::array<Lengths<N>, 3> corners{};
@@ -142,6 +220,10 @@ struct Facet {
     }
     [[nodiscard]] typename N::Value value(const Lengths<N>& p) const {
         return dot<N>(normal, minus(p, corners[0]));
+    }
+    /// The same in integers, where doubles leave it open.
+    [[nodiscard]] std::optional<double> exact_value(const Lengths<N>& p) const {
+        return exact_determinant<N>(corners[1], corners[2], p, corners[0]);
     }
 };
 

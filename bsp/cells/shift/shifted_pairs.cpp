@@ -17,7 +17,8 @@
 // shift along the axes decides.
 //
 // Doubles come first: most signs are not near 0, and those about a plane across an axis are 0 with
-// certainty. Where they leave one sign open, all is done once more in integers.
+// certainty. A determinant of whole coordinates that they leave open is computed in integers; where
+// another sign is open, all is done once more in integers.
 
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
 
@@ -60,7 +61,7 @@ public:
             const int sign = numbers_.sign(facet.value(g.centre));
             if (sign != 0) return -g.sign * sign;
         }
-        return shift_.along(signs_of(numbers_, facet.normal));
+        return sign_along(numbers_, shift_, facet.normal);
     }
     [[nodiscard]] int of_corner(const Facet<N>& first, std::size_t) const {
         return of_value(first);
@@ -71,19 +72,27 @@ public:
     // Of det(p0 - qj, pi - qj, q0 - qj), by corners q of the second facet.
     [[nodiscard]] int of_edges(const std::array<Lengths<N>, 2>& p,
                                const std::array<Lengths<N>, 2>& q, std::size_t, std::size_t) const {
-        return of_product(cross<N>(minus(p[1], p[0]), minus(q[1], q[0])), q[0]);
+        return of_product(cross<N>(minus(p[1], p[0]), minus(q[1], q[0])), q[0], [&](std::size_t k) {
+            return exact_product<N>(p[0], p[1], q[0], q[1], k);
+        });
     }
     // Of the product of a vector and a point that is moved.
     [[nodiscard]] int of_product(const Normal<N>& n, const Lengths<N>& point) const {
+        return of_product(n, point, [](std::size_t) { return std::optional<double>(); });
+    }
+
+private:
+    template <class Exactly>
+    [[nodiscard]] int of_product(const Normal<N>& n, const Lengths<N>& point,
+                                 const Exactly& exactly) const {
         for (const Growth& g : growths_) {
             if (g.sign == 0) break;
             const int sign = numbers_.sign(dot<N>(n, minus(point, g.centre)));
             if (sign != 0) return g.sign * sign;
         }
-        return shift_.along(signs_of(numbers_, n));
+        return sign_along(numbers_, shift_, n, exactly);
     }
 
-private:
     struct Growth {
         int sign = 0;
         Lengths<N> centre;
@@ -111,7 +120,8 @@ struct CornerSigns {
             value[i] = numbers.to_double(v);
             error[i] = numbers.error_of(v);
             sign[i] = numbers.sign(
-                v, [&] { return N::is_in_plane(facet.corners[i], plane.corners, plane.normal); });
+                v, [&] { return N::is_in_plane(facet.corners[i], plane.corners, plane.normal); },
+                [&] { return plane.exact_value(facet.corners[i]); });
             if (sign[i] == 0) on |= 1U << i;
         }
         int moved = 0;
@@ -151,18 +161,13 @@ struct NumberedCorners {
     }
 };
 
-// The point between two corners where a plane's value is 0.
-template <class N>
-Approximation between(const N& numbers, const std::array<const LatticePoint*, 2>& points,
-                      const std::array<double, 2>& values, double error) {
+// A point between two corners is off by so much of the way at most.
+constexpr double most_off = 0x1p-44;
+
+// The point between two corners where a plane's value is 0; `off`: of the part of the way.
+Approximation between(const std::array<const LatticePoint*, 2>& points, double part, double off) {
     const std::array<double, 3> from = points[0]->doubles();
     const std::array<double, 3> to = points[1]->doubles();
-    const double drop = std::fabs(values[0]) + std::fabs(values[1]);
-    const double part = std::fabs(values[0]) / drop;
-    // Of the part of the way: by the values, and by roundings of the quotient.
-    const double off = 2 * (error / drop) + 0x1p-51;
-    constexpr double too_much = 0x1p-44;
-    if (off > too_much) numbers.leave_open();
     Approximation x;
     double span = 0;
     double largest = 0;
@@ -176,6 +181,17 @@ Approximation between(const N& numbers, const std::array<const LatticePoint*, 2>
     return x;
 }
 
+// The values of a plane at both ends of an edge through it.
+struct EndValues {
+    std::array<double, 2> size;
+    double error;
+
+    [[nodiscard]] double drop() const { return size[0] + size[1]; }
+    [[nodiscard]] double part() const { return size[0] / drop(); }
+    // Of the part of the way: by the values, and by roundings of the quotient.
+    [[nodiscard]] double off() const { return 2 * (error / drop()) + 0x1p-51; }
+};
+
 // A bound on it.
 double length_of(const LatticePoint& from, const LatticePoint& to) {
     const std::array<double, 3> a = from.doubles();
@@ -188,7 +204,8 @@ double length_of(const LatticePoint& from, const LatticePoint& to) {
 // Where the edge from the lonely corner to corner i goes through the other plane.
 template <class N>
 void set_end(const N& numbers, const FacetCorners& points, const NumberedCorners<N>& t,
-             const CornerSigns<N>& sides, std::size_t i, bool of_second, FacetCrossing::End& end) {
+             const CornerSigns<N>& sides, const Facet<N>& plane, std::size_t i, bool of_second,
+             FacetCrossing::End& end) {
     end.of_second = of_second;
     end.edge = t.edge_to(i);
     end.corner = -1;
@@ -206,8 +223,19 @@ void set_end(const N& numbers, const FacetCorners& points, const NumberedCorners
         if (is_along) end.at.error = length_of(*points[from], *points[to]);
         return;
     }
-    end.at = between(numbers, {points[from], points[to]}, {sides.value[from], sides.value[to]},
-                     sides.error[from] + sides.error[to]);
+    EndValues values{{std::fabs(sides.value[from]), std::fabs(sides.value[to])},
+                     sides.error[from] + sides.error[to]};
+    if (values.off() > most_off) {
+        const auto at_from = plane.exact_value(t.points[from]);
+        const auto at_to = plane.exact_value(t.points[to]);
+        if (at_from && at_to) {
+            values.size = {std::fabs(*at_from), std::fabs(*at_to)};
+            values.error = 0x1p-51 * values.drop();
+        } else {
+            numbers.leave_open();
+        }
+    }
+    end.at = between({points[from], points[to]}, values.part(), values.off());
 }
 
 bool are_equal(const FacetCorners& a, const FacetCorners& b) {
@@ -272,8 +300,9 @@ ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorne
     // The sign of det(p0 - qj, pi - qj, q0 - qj); its derivative is (pi - p0) × (qj - q0).
     const auto order = [&](std::size_t i, std::size_t j) {
         const Normal<N> n = cross<N>(minus(p[i], q[j]), minus(q[0], q[j]));
-        const int sign = numbers.sign(dot<N>(n, minus(p[0], q[j])),
-                                      [&] { return N::do_meet(p[0], p[i], q[0], q[j]); });
+        const int sign = numbers.sign(
+            dot<N>(n, minus(p[0], q[j])), [&] { return N::do_meet(p[0], p[i], q[0], q[j]); },
+            [&] { return exact_determinant<N>(p[0], p[i], q[0], q[j]); });
         if (sign != 0) return sign;
         out.touches = true;
         return derivatives.of_edges({p[0], p[i]}, {q[0], q[j]}, q.corner[0], q.corner[j]);
@@ -295,9 +324,9 @@ ShiftedPair relate(const N& numbers, const FacetCorners& first, const FacetCorne
     out.kind = ShiftedPair::Kind::Crossing;
     const auto set = [&](FacetCrossing::End& end, bool of_second, std::size_t corner) {
         if (of_second) {
-            set_end(numbers, second, q, of_b, corner, true, end);
+            set_end(numbers, second, q, of_b, a, corner, true, end);
         } else {
-            set_end(numbers, first, p, of_a, corner, false, end);
+            set_end(numbers, first, p, of_a, b, corner, false, end);
         }
     };
     // The later start and the earlier end.

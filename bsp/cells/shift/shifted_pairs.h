@@ -40,8 +40,8 @@ struct ShiftedPair {
 
 [[nodiscard]] ShiftedPair relate_shifted(const FacetCorners& first, const FacetCorners& second,
                                          const InfinitesimalShift& shift);
-/// The same in two ways: in doubles, and nothing where they leave a sign open, and in integers.
-/// Answers agree, but for the last bits of ends.
+/// The same in two ways: in doubles, and nothing where they leave a sign open that is no
+/// orientation of four whole points, and in integers. Answers agree, but for the last bits of ends.
 [[nodiscard]] std::optional<ShiftedPair> relate_in_doubles(const FacetCorners& first,
                                                            const FacetCorners& second,
                                                            const InfinitesimalShift& shift);

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include <trisect/brep/primitives/cylinder.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
@@ -62,6 +63,22 @@ TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
     EXPECT_EQ(stats.traces, 0U);
     EXPECT_GT(stats.untouched_polygons, 1000U);
     EXPECT_LT(stats.memory, by_cells.memory);
+}
+
+// Two cylinders of which the second one is moved across its axis. Walls of one end in the planes of
+// the other one's caps, most of them beside the cap's facet whose box they meet.
+TEST(Caps, WallsThatEndBesideThemAreNoDoubtfulPairs) {
+    const trisect::PolygonMesh mesh = trisect::make_cylinder(1, 1, 400);
+    const Solid a = Solid::from_mesh(mesh);
+    const Solid b = Solid::from_mesh(
+        trisect::transformed(mesh, trisect::AffineMap::translation({0.4375, 0.28125, 0})));
+    EvaluateStats stats;
+    const Solid both = evaluate(a & b, {}, &stats);
+    EXPECT_EQ(stats.exact_leaves, 0U);
+    EXPECT_GT(stats.doubtful_pairs, 300U);
+    EXPECT_LT(4 * stats.doubtful_pairs, 3 * stats.pairs_boxes);
+    const StopScope by_cells({.max_work = std::uint64_t{1} << 60});
+    EXPECT_EQ(both.to_brep().counts(), evaluate(a & b).to_brep().counts());
 }
 
 TEST_F(TwoBalls, AreDecidedByTheFilterNearlyAlways) {

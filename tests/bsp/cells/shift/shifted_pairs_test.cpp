@@ -242,6 +242,41 @@ TEST(ShiftedPairs, DoublesDecideWallsThatEndInAFace) {
     }
 }
 
+// Edges that meet edges, all digits of whole coordinates used: of a facet and its mirror image, or
+// its image moved along one of its edges.
+TEST(ShiftedPairs, DoublesDecideEdgesThatMeetEdges) {
+    std::mt19937_64 random(7);
+    int touching = 0;
+    int crossing = 0;
+    for (int i = 0; i < 3000; ++i) {
+        SCOPED_TRACE(i);
+        const int bits = i % 3 == 0 ? 30 : 50;  // by 128 bits, and by more
+        const auto digits = [&] {
+            return static_cast<std::int64_t>(random() >> (63 - bits)) - (std::int64_t{1} << bits);
+        };
+        std::array<LatticePoint, 3> a;
+        for (LatticePoint& p : a) p = {digits(), digits(), digits()};
+        std::array<LatticePoint, 3> b = a;
+        const auto axis = static_cast<int>(random() % 3);
+        for (LatticePoint& p : b) {
+            std::array<trisect::Coordinate, 3> c{p.x, p.y, p.z};
+            c[static_cast<std::size_t>(axis)] = -c[static_cast<std::size_t>(axis)];
+            p = {c[0], c[1], c[2]};
+        }
+        std::swap(b[1], b[2]);
+        InfinitesimalShift shift;
+        std::swap(shift.axes[0], shift.axes[random() % 3]);
+        for (std::int8_t& sign : shift.signs) sign = random() % 2 == 0 ? 1 : -1;
+        const auto pair = relate_in_doubles(corners(a), corners(b), shift);
+        ASSERT_TRUE(pair.has_value());
+        expect_equal(*pair, relate_exactly(corners(a), corners(b), shift));
+        touching += pair->touches ? 1 : 0;
+        crossing += pair->kind == ShiftedPair::Kind::Crossing ? 1 : 0;
+    }
+    EXPECT_GT(touching, 1000);
+    EXPECT_GT(crossing, 500);
+}
+
 // Where an edge goes through two facets that have a point of it in common.
 TEST(ShiftedPairs, EdgesGoThroughFacetsInTheOrderOfThoseThatAreMoved) {
     int equal = 0;
