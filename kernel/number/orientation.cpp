@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <trisect/kernel/number/dyadic.h>
@@ -18,11 +19,39 @@ namespace {
 
 using Rows = std::array<std::array<Int128, 3>, 3>;
 
+// Of four numbers: integers in units of the last bit that any of them has. Nothing where they take
+// more than 126 bits.
+struct OnOneUnit {
+    std::array<Int128, 4> value{};
+    int exponent = 0;
+
+    [[nodiscard]] static std::optional<OnOneUnit> of(const std::array<double, 4>& numbers) {
+        constexpr int most_bits = 126;
+        std::array<Dyadic, 4> at;
+        int unit = std::numeric_limits<int>::max();
+        int top = std::numeric_limits<int>::min();
+        for (std::size_t i = 0; i < 4; ++i) {
+            at[i] = dyadic(numbers[i]);
+            if (at[i].mantissa == 0) continue;
+            unit = std::min(unit, at[i].exponent);
+            top = std::max(top, exponent_above(numbers[i]));
+        }
+        OnOneUnit out;
+        if (top < unit) return out;  // all are 0
+        if (top - unit > most_bits) return std::nullopt;
+        out.exponent = unit;
+        for (std::size_t i = 0; i < 4; ++i)
+            if (at[i].mantissa != 0)
+                out.value[i] = Int128{at[i].mantissa} * (Int128{1} << (at[i].exponent - unit));
+        return out;
+    }
+};
+
 // By products of N limbs and 2 N limbs. Of entries below 2^e minors are below 2^(2 e + 1), and the
 // determinant is below 4 · 2^(3 e), the most that three rows of 1 and -1 have. That is 2^127 and
 // 2^191 for 63 bits, 2^255 and 2^383 for 127.
 template <int N>
-int sign_of_determinant(const Rows& m) {
+WideInt<3 * N> determinant(const Rows& m) {
     WideInt<3 * N> sum;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = (k + 1) % 3;
@@ -32,40 +61,65 @@ int sign_of_determinant(const Rows& m) {
         };
         sum += multiply<3 * N>(product(i, j) - product(j, i), WideInt<N>(m[0][k]));
     }
-    return sum.sign();
+    return sum;
 }
+
+// The rows a - d, b - d and c - d, by axis in units of their own.
+struct ScaledRows {
+    Rows m;
+    int exponent = 0;
+    bool is_short = true;  ///< each entry has 63 bits
+
+    [[nodiscard]] static std::optional<ScaledRows> of(const std::array<const Vector3*, 4>& points) {
+        constexpr Int128 short_side = std::numeric_limits<std::int64_t>::max();
+        ScaledRows out;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto at = OnOneUnit::of(
+                {(*points[0])[k], (*points[1])[k], (*points[2])[k], (*points[3])[k]});
+            if (!at) return std::nullopt;
+            out.exponent += at->exponent;
+            for (std::size_t p = 0; p < 3; ++p) {
+                out.m[p][k] = at->value[p] - at->value[3];
+                out.is_short =
+                    out.is_short && out.m[p][k] < short_side && out.m[p][k] > -short_side;
+            }
+        }
+        return out;
+    }
+};
 
 }  // namespace
 
 std::optional<int> exact_orientation_of_fractions(const Vector3& a, const Vector3& b,
                                                   const Vector3& c, const Vector3& d) {
-    constexpr int most_bits = 126;
-    constexpr Int128 short_side = std::numeric_limits<std::int64_t>::max();
-    const std::array<const Vector3*, 4> points{&a, &b, &c, &d};
-    Rows m;
-    bool is_short = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-        std::array<Dyadic, 4> at;
-        int unit = std::numeric_limits<int>::max();
-        int top = std::numeric_limits<int>::min();
-        for (std::size_t p = 0; p < 4; ++p) {
-            at[p] = dyadic((*points[p])[k]);
-            if (at[p].mantissa == 0) continue;
-            unit = std::min(unit, at[p].exponent);
-            top = std::max(top, exponent_above((*points[p])[k]));
-        }
-        if (top > unit && top - unit > most_bits) return std::nullopt;
-        const auto scaled = [&](std::size_t p) {
-            if (at[p].mantissa == 0) return Int128{0};
-            return Int128{at[p].mantissa} * (Int128{1} << (at[p].exponent - unit));
-        };
-        const Int128 last = scaled(3);
-        for (std::size_t p = 0; p < 3; ++p) {
-            m[p][k] = scaled(p) - last;
-            is_short = is_short && m[p][k] < short_side && m[p][k] > -short_side;
-        }
+    const auto rows = ScaledRows::of({&a, &b, &c, &d});
+    if (!rows) return std::nullopt;
+    return rows->is_short ? determinant<1>(rows->m).sign() : determinant<2>(rows->m).sign();
+}
+
+std::optional<double> determinant_of_fractions(const Vector3& a, const Vector3& b, const Vector3& c,
+                                               const Vector3& d) {
+    const auto rows = ScaledRows::of({&a, &b, &c, &d});
+    if (!rows) return std::nullopt;
+    const double value =
+        rows->is_short ? determinant<1>(rows->m).to_double() : determinant<2>(rows->m).to_double();
+    return std::ldexp(value, rows->exponent);
+}
+
+std::optional<double> product_of_fractions(const Segment2& first, const Segment2& second) {
+    std::array<OnOneUnit, 2> at;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto known =
+            OnOneUnit::of({first[0][k], first[1][k], second[0][k], second[1][k]});
+        if (!known) return std::nullopt;
+        at[k] = *known;
     }
-    return is_short ? sign_of_determinant<1>(m) : sign_of_determinant<2>(m);
+    const auto along = [&](std::size_t k, std::size_t which) {
+        return WideInt<2>(at[k].value[2 * which + 1] - at[k].value[2 * which]);
+    };
+    const WideInt<4> value = multiply<4>(along(0, 0), along(1, 1)) -
+                             multiply<4>(along(1, 0), along(0, 1));
+    return std::ldexp(value.to_double(), at[0].exponent + at[1].exponent);
 }
 
 }  // namespace trisect::detail

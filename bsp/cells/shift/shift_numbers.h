@@ -14,6 +14,7 @@
 #include <trisect/bsp/cells/shift/near_numbers.h>
 #include <trisect/bsp/cells/shift/shifted_pairs.h>
 #include <trisect/kernel/number/dyadic.h>
+#include <trisect/kernel/number/orientation.h>
 #include <trisect/kernel/number/vector3.h>
 #include <trisect/kernel/wide_int.h>
 
@@ -168,7 +169,7 @@ inline std::optional<Lengths<WholeNumbers>> whole_difference(const Lengths<NearN
 }
 
 // det(a - d, b - d, c - d) in integers, for what doubles leave open: off by less than 2^-51 of it.
-// Nothing of points that are not whole.
+// Nothing where they do not hold it.
 template <class N>
 std::optional<double> exact_determinant(const Lengths<N>& a, const Lengths<N>& b,
                                         const Lengths<N>& c, const Lengths<N>& d) {
@@ -176,7 +177,7 @@ std::optional<double> exact_determinant(const Lengths<N>& a, const Lengths<N>& b
         const auto u = whole_difference(a, d);
         const auto v = whole_difference(b, d);
         const auto w = whole_difference(c, d);
-        if (!u || !v || !w) return std::nullopt;
+        if (!u || !v || !w) return determinant_of_fractions(a, b, c, d);
         constexpr std::uint64_t short_length = std::uint64_t{1} << 41;
         std::uint64_t all = 0;
         for (const auto* row : {&*u, &*v, &*w})
@@ -199,9 +200,11 @@ std::optional<double> exact_product(const Lengths<N>& a, const Lengths<N>& b, co
     if constexpr (std::is_same_v<N, NearNumbers>) {
         const auto u = whole_difference(b, a);
         const auto v = whole_difference(d, c);
-        if (!u || !v) return std::nullopt;
         const std::size_t i = (k + 1) % 3;
         const std::size_t j = (k + 2) % 3;
+        if (!u || !v)
+            return product_of_fractions({{{a[i], a[j]}, {b[i], b[j]}}},
+                                        {{{c[i], c[j]}, {d[i], d[j]}}});
         return static_cast<double>(WholeNumbers::minor((*u)[i], (*v)[j], (*u)[j], (*v)[i]));
     } else {
         return std::nullopt;

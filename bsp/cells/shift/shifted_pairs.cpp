@@ -17,7 +17,7 @@
 // shift along the axes decides.
 //
 // Doubles come first: most signs are not near 0, and those about a plane across an axis are 0 with
-// certainty. A determinant of whole coordinates that they leave open is computed in integers; where
+// certainty. A determinant of four corners that they leave open is computed in integers; where
 // another sign is open, all is done once more in integers.
 
 #include <trisect/bsp/cells/shift/shifted_pairs.h>

@@ -242,8 +242,8 @@ TEST(ShiftedPairs, DoublesDecideWallsThatEndInAFace) {
     }
 }
 
-// Edges that meet edges, all digits of whole coordinates used: of a facet and its mirror image, or
-// its image moved along one of its edges.
+// Edges of a facet that meet those of its mirror image, all digits of whole coordinates used, or of
+// fractions.
 TEST(ShiftedPairs, DoublesDecideEdgesThatMeetEdges) {
     std::mt19937_64 random(7);
     int touching = 0;
@@ -255,7 +255,9 @@ TEST(ShiftedPairs, DoublesDecideEdgesThatMeetEdges) {
             return static_cast<std::int64_t>(random() >> (63 - bits)) - (std::int64_t{1} << bits);
         };
         std::array<LatticePoint, 3> a;
-        for (LatticePoint& p : a) p = {digits(), digits(), digits()};
+        const double unit = i % 2 == 0 ? 1 : 0x1p-60;
+        const auto at = [&] { return trisect::Coordinate(static_cast<double>(digits()) * unit); };
+        for (LatticePoint& p : a) p = {at(), at(), at()};
         std::array<LatticePoint, 3> b = a;
         const auto axis = static_cast<int>(random() % 3);
         for (LatticePoint& p : b) {
