@@ -57,11 +57,16 @@ struct LateEnds {
 // Eight numbers at a time, in the widest registers that there are.
 using Eight = std::uint32_t __attribute__((vector_size(32)));
 
+// Rows are asked for before they are looked at, in their order or by triangles.
+constexpr std::size_t ahead = 24;
+constexpr std::size_t triangles_ahead = 12;
+
 // Lists the vertices of which it is not clear that the ends in their rows are the same both ways,
 // none of them twice.
 TRISECT_WIDE_CLONES void list_unclear(const Row* rows, const std::uint8_t* counts,
                                       std::size_t vertices, std::vector<std::uint32_t>& unclear) {
     for (std::size_t v = 0; v < vertices; ++v) {
+        __builtin_prefetch(rows + v + ahead);
         Eight low;
         Eight high;
         std::memcpy(&low, rows[v].ends.data(), sizeof(low));
@@ -123,6 +128,8 @@ public:
             counts[v] = static_cast<std::uint8_t>(n + 1);
         };
         const std::uint32_t* const end = corners.data() + corners.size() / 3 * 3;
+        const std::uint32_t* const last_ahead =
+            end - std::min<std::ptrdiff_t>(3 * triangles_ahead, end - corners.data());
         for (const std::uint32_t* at = corners.data(); at != end; at += 3) {
             const std::uint64_t a = at[0];
             const std::uint64_t b = at[1];
@@ -130,6 +137,9 @@ public:
             // With a repeated corner they run to and fro and cancel already.
             if (a == b || b == c || c == a) [[unlikely]]
                 continue;
+            if (at < last_ahead)
+                for (std::size_t i = 0; i < 3; ++i)
+                    __builtin_prefetch(rows + row_size * at[3 * triangles_ahead + i], 1);
             put(a, b, c);
             put(b, c, a);
             put(c, a, b);
