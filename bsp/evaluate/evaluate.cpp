@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include <trisect/bsp/evaluate/disjoint_operands.h>
 #include <trisect/bsp/evaluate/flat_formula.h>
 #include <trisect/bsp/evaluate/formula_operands.h>
 #include <trisect/bsp/evaluate/named_slots.h>
@@ -82,7 +83,8 @@ Solid evaluate(const Expression& expression, const EvaluateOptions& options,
         return detail::solid_of(std::move(flat));
     }
     if (auto solid = evaluate_over_prisms(t, options, report)) return *std::move(solid);
-    return detail::evaluate_translation(detail::with_operands_in_reach(t), options, report);
+    return detail::evaluate_translation(
+        detail::with_operands_in_reach(detail::with_unions_of_disjoint(t)), options, report);
 }
 
 }  // namespace trisect

@@ -9,20 +9,15 @@
 #include <trisect/bsp/evaluate/operands_in_reach.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <limits>
 #include <optional>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <trisect/bsp/cells/solid_state.h>
-#include <trisect/bsp/cells/source.h>
 #include <trisect/bsp/evaluate/named_slots.h>
+#include <trisect/bsp/evaluate/user_box.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/deep_recursion.h>
 
@@ -31,58 +26,6 @@ namespace trisect::detail {
 namespace {
 
 constexpr std::size_t least_operands_in_reach = 3;
-
-// In the user's units, which all lattices have in common. Closed.
-struct UserBox {
-    static constexpr double infinite = std::numeric_limits<double>::infinity();
-    std::array<double, 3> lo{infinite, infinite, infinite};
-    std::array<double, 3> hi{-infinite, -infinite, -infinite};
-
-    static UserBox all() {
-        return {{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}};
-    }
-    [[nodiscard]] UserBox intersected(const UserBox& b) const {
-        UserBox out;
-        for (std::size_t k = 0; k < 3; ++k) {
-            out.lo[k] = std::max(lo[k], b.lo[k]);
-            out.hi[k] = std::min(hi[k], b.hi[k]);
-        }
-        return out;
-    }
-    void add(const UserBox& b) {
-        if (b.is_empty()) return;
-        for (std::size_t k = 0; k < 3; ++k) {
-            lo[k] = std::min(lo[k], b.lo[k]);
-            hi[k] = std::max(hi[k], b.hi[k]);
-        }
-    }
-    [[nodiscard]] bool is_empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
-    [[nodiscard]] bool is_beside(const UserBox& b) const { return intersected(b).is_empty(); }
-};
-
-// Of an imported mesh, with a unit around: a fraction is less than that away from its position.
-std::optional<UserBox> box_of_mesh(const SolidState& state) {
-    const auto* const tree = std::get_if<CellTree>(&state.form);
-    if (tree == nullptr || state.far_out < 0) return std::nullopt;
-    const CellNode& root = *tree->root.node;
-    if (!root.is_leaf() || root.deferred() != nullptr || !root.polygons().has_all_facets())
-        return std::nullopt;
-    const Source* const source = root.polygons().whole_source();
-    if (source == nullptr || source->is_half_space() || source->box().is_empty())
-        return std::nullopt;
-    // Else whole numbers of 53 bits times the unit might be no doubles.
-    constexpr int largest_exponent = 900;
-    if (std::abs(state.lattice.exponent) > largest_exponent) return std::nullopt;
-    const auto in_units = [&](std::int64_t c) {
-        return std::ldexp(static_cast<double>(c), state.lattice.exponent);
-    };
-    UserBox out;
-    for (std::size_t k = 0; k < 3; ++k) {
-        out.lo[k] = in_units(source->box().lo[k] - 1);
-        out.hi[k] = in_units(source->box().hi[k] + 1);
-    }
-    return out;
-}
 
 struct BoxedOperand {
     UserBox box;
@@ -95,7 +38,7 @@ std::vector<BoxedOperand> boxed_operands(const std::vector<Solid>& slots) {
     out.reserve(slots.size());
     for (const Solid& s : slots) {
         const SolidState& state = *state_of(s);
-        const auto box = box_of_mesh(state);
+        const auto box = box_around_mesh(state);
         if (!box) return {};
         out.push_back({*box, state.far_out != 0});
     }

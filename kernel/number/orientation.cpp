@@ -74,8 +74,8 @@ struct ScaledRows {
         constexpr Int128 short_side = std::numeric_limits<std::int64_t>::max();
         ScaledRows out;
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto at = OnOneUnit::of(
-                {(*points[0])[k], (*points[1])[k], (*points[2])[k], (*points[3])[k]});
+            const auto at =
+                OnOneUnit::of({(*points[0])[k], (*points[1])[k], (*points[2])[k], (*points[3])[k]});
             if (!at) return std::nullopt;
             out.exponent += at->exponent;
             for (std::size_t p = 0; p < 3; ++p) {
@@ -109,16 +109,15 @@ std::optional<double> determinant_of_fractions(const Vector3& a, const Vector3& 
 std::optional<double> product_of_fractions(const Segment2& first, const Segment2& second) {
     std::array<OnOneUnit, 2> at;
     for (std::size_t k = 0; k < 2; ++k) {
-        const auto known =
-            OnOneUnit::of({first[0][k], first[1][k], second[0][k], second[1][k]});
+        const auto known = OnOneUnit::of({first[0][k], first[1][k], second[0][k], second[1][k]});
         if (!known) return std::nullopt;
         at[k] = *known;
     }
     const auto along = [&](std::size_t k, std::size_t which) {
         return WideInt<2>(at[k].value[2 * which + 1] - at[k].value[2 * which]);
     };
-    const WideInt<4> value = multiply<4>(along(0, 0), along(1, 1)) -
-                             multiply<4>(along(1, 0), along(0, 1));
+    const WideInt<4> value =
+        multiply<4>(along(0, 0), along(1, 1)) - multiply<4>(along(1, 0), along(0, 1));
     return std::ldexp(value.to_double(), at[0].exponent + at[1].exponent);
 }
 

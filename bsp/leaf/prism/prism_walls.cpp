@@ -46,11 +46,11 @@ bool PrismWalls::add(std::span<const PolygonRef> polygons, LeafIndex operand, bo
     number_groups();
     if (!find_rims()) return false;
     place_facets();
-    auto rim = rims_.begin();
+    std::size_t end = 0;
     for (std::uint32_t group = 0; group < groups_.size(); ++group) {
-        const auto begin = rim;
-        while (rim != rims_.end() && rim->group == group) ++rim;
-        add_wall(group, {begin, rim}, operand, flipped, out);
+        const std::size_t begin = end;
+        while (end < rims_.size() && rims_[end].group == group) ++end;
+        add_wall(group, {rims_.data() + begin, end - begin}, operand, flipped, out);
     }
     return true;
 }

@@ -15,7 +15,8 @@ using trisect::detail::exact_orientation_of_fractions;
 using trisect::detail::product_of_fractions;
 using trisect::detail::Vector3;
 
-mpq_class oracle_determinant(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
+mpq_class oracle_determinant(const Vector3& a, const Vector3& b, const Vector3& c,
+                             const Vector3& d) {
     const auto from_d = [&](const Vector3& p, std::size_t k) -> mpq_class {
         return mpq_class(p[k]) - mpq_class(d[k]);
     };
@@ -66,8 +67,7 @@ TEST(Orientation, OfFractionsIsExact) {
         const auto along = [](const Vector3& from, const Vector3& to, std::size_t k) -> mpq_class {
             return mpq_class(to[k]) - mpq_class(from[k]);
         };
-        expect_near(*product,
-                    along(a, b, 0) * along(c, d, 1) - along(a, b, 1) * along(c, d, 0));
+        expect_near(*product, along(a, b, 0) * along(c, d, 1) - along(a, b, 1) * along(c, d, 0));
     }
     EXPECT_GT(decided, 19000);
 }
