@@ -44,11 +44,9 @@ std::uint64_t total_size(std::span<const std::shared_ptr<const SolidState>> soli
 
 }  // namespace
 
-bool are_large_prisms(const Residual::Ref&, const SolidStates& solids,
-                      const EvaluateSettings& options) {
+bool may_be_prisms_of_one_axis(const Residual::Ref&, const SolidStates& solids,
+                               const EvaluateSettings& options) {
     if (solids.size() < 2 || options.budget != nullptr || options.max_memory != 0) return false;
-    if (total_size(solids) <= std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
-        return false;
     return std::ranges::all_of(solids, [](const auto& s) {
         const Source* const mesh = only_mesh_of(*s);
         return mesh != nullptr && lies_outside(s->root().node->reference(), mesh->box()) &&

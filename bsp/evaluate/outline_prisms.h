@@ -13,13 +13,14 @@
 
 namespace trisect::detail {
 
-/// Whether a formula is over meshes that may be prisms along one axis, too large for a leaf, and
-/// neither work nor memory is limited.
-[[nodiscard]] bool are_large_prisms(const Residual::Ref& formula, const SolidStates& solids,
-                                    const EvaluateSettings& options);
+/// Whether a formula is over meshes, each all facets of a source, that may be prisms along one
+/// axis, and neither work nor memory is limited.
+[[nodiscard]] bool may_be_prisms_of_one_axis(const Residual::Ref& formula,
+                                             const SolidStates& solids,
+                                             const EvaluateSettings& options);
 
 /// The value of such a formula: PrismOutlines with that tree, or a CellTree of one leaf where all
-/// facets are whole. Nothing where these are no prisms. \pre are_large_prisms()
+/// facets are whole. Nothing where these are no prisms. \pre may_be_prisms_of_one_axis()
 [[nodiscard]] std::optional<SolidForm> outline_prisms(const Residual::Ref& formula,
                                                       const SolidStates& solids,
                                                       const EvaluateSettings& options,

@@ -19,6 +19,7 @@
 #include <trisect/bsp/evaluate/outline_prisms.h>
 #include <trisect/bsp/half_spaces/between_half_spaces.h>
 #include <trisect/bsp/leaf/prism/prism_facets.h>
+#include <trisect/bsp/many_meshes/crowd.h>
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 #include <trisect/bsp/many_meshes/parity/exclusive_or_without_tree.h>
 #include <trisect/bsp/two_meshes/few_facets.h>
@@ -184,7 +185,8 @@ bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
     std::uint64_t all = 0;
     for (const auto& s : solids) all += s->root().node->size();
     return all <= std::uint64_t{grid_leaf} * options.leaf_polygons &&
-           are_mostly_across_axes(solids) && std::ranges::all_of(solids, [](const auto& s) {
+           are_mostly_across_axes(solids) && !do_lie_apart(solids) &&
+           std::ranges::all_of(solids, [](const auto& s) {
                const PolygonList& polygons = s->root().node->polygons();
                return std::all_of(polygons.begin(), polygons.end(),
                                   [](const PolygonRef& r) { return is_axis_polygon(r); });
@@ -195,10 +197,28 @@ namespace {
 
 bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
                         const EvaluateSettings& options) {
+    if (!are_two_meshes(formula, solids, options, facets_of_tetrahedron)) return false;
+    if (do_lie_apart(solids)) return true;
     return (are_two_meshes(formula, solids, options) ||
-            (are_two_meshes(formula, solids, options, facets_of_tetrahedron) &&
-             are_apart_or_touch(solids) && !are_mostly_across_axes(solids))) &&
+            (are_apart_or_touch(solids) && !are_mostly_across_axes(solids))) &&
            !are_one_grid(solids, options);
+}
+
+// Of large ones cells would cut walls. Of few facets pieces cost more than outlines, but walls that
+// touch are found late, and nothing is outlined of what is across the axes or apart.
+bool are_prisms_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
+                              const EvaluateSettings& options) {
+    if (!may_be_prisms_of_one_axis(formula, solids, options)) return false;
+    std::uint64_t all = 0;
+    std::vector<Box> boxes;
+    for (const auto& s : solids) {
+        const PolygonList& polygons = s->root().node->polygons();
+        all += polygons.size();
+        boxes.push_back(polygons[0].source->box());
+    }
+    if (all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
+        return !may_be_many_meshes(formula, solids, options) || !are_apart(boxes);
+    return !are_mostly_across_axes(solids) && !do_stand(boxes) && !are_apart(boxes);
 }
 
 // Which are one leaf, if they are of one axis.
@@ -217,15 +237,16 @@ bool are_few_of_prisms(const SolidStates& solids, const EvaluateSettings& option
 bool are_many_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                             const EvaluateSettings& options) {
     if (!are_many_meshes(formula, solids, options)) return false;
-    if (are_mostly_across_axes(solids)) return are_nested(solids);
+    if (are_mostly_across_axes(solids)) return are_nested(solids) || do_lie_apart(solids);
     if (!do_fill_one_place(solids) || do_stand_on_each_other(solids)) return true;
     return !are_few_of_prisms(solids, options);
 }
 
 bool is_parity_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
                              const EvaluateSettings& options) {
-    return is_exclusive_or_of_many(formula, solids, options) && !are_mostly_across_axes(solids) &&
-           !are_few_of_prisms(solids, options);
+    if (!is_exclusive_or_of_many(formula, solids, options)) return false;
+    return do_lie_apart(solids) ||
+           (!are_mostly_across_axes(solids) && !are_few_of_prisms(solids, options));
 }
 
 // --- The table.
@@ -247,24 +268,26 @@ constexpr std::size_t constant_rows = 2;
 constexpr std::array all_rules{
     Rule{
         "two meshes",
-        "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, or 4 where they touch or "
-        "are apart and not all across the axes, without an index, of a size, or of which the "
+        "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, or 4 where they are "
+        "apart, or touch and not all across the axes, without an index, of a size, or of which the "
         "larger one is not large and was not compared so before; not 8 leaves or less whose facets "
-        "are all across the axes; no work limit",
+        "are all across the axes, unless apart; no work limit",
         "uncrossed facets, crossings", &Stats::filtered_leaves,
         FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},
-    Rule{"outlines of prisms",
-         "meshes of prisms along one axis, larger together than a leaf of prisms; no limits",
-         "whole facets, outlines by name", &Stats::prism_leaves,
-         FormulaRule{&are_large_prisms, &outline_prisms}},
+    Rule{
+        "outlines of prisms",
+        "meshes of prisms along one axis, larger together than a leaf of prisms, or not all across "
+        "the axes nor most of them on each other; not apart; no limits",
+        "whole facets, outlines by name", &Stats::prism_leaves,
+        FormulaRule{&are_prisms_beyond_leaves, &outline_prisms}},
     Rule{"half-spaces",
          "∩ or − of one imported mesh and half-spaces, or what complements make of it; parallel "
          "planes, none through a corner; no work limit",
          "uncrossed facets, crossings", &Stats::half_space_cuts,
          FormulaRule{&is_mesh_with_half_spaces, &evaluate_between_half_spaces}},
     Rule{"exclusive or of many",
-         "⊕ of three imported meshes or more, none with an index, not all across the axes, "
-         "nor few of prisms, that do not touch; no limits",
+         "⊕ of three imported meshes or more, none with an index, apart, or neither all across the "
+         "axes nor few of prisms, that do not touch; no limits",
          "uncrossed facets, outlines", &Stats::filtered_leaves,
          FormulaRule{&is_parity_beyond_leaves, &evaluate_exclusive_or_without_tree}},
     Rule{
@@ -274,7 +297,7 @@ constexpr std::array all_rules{
         "than 64, or whose boxes touch or are apart, or of thin facets, or nested; where many, "
         "most "
         "facets in the formula's reach; none with an index, not all across the axes, unless within "
-        "each other, or a leaf of prisms; no limits",
+        "each other or apart, or a leaf of prisms; no limits",
         "uncrossed facets, outlines", &Stats::filtered_leaves,
         FormulaRule{&are_many_beyond_leaves, &evaluate_many_without_tree}},
     Rule{"constant", "the formula has one value in the cell", "an empty leaf",

@@ -99,8 +99,8 @@ struct Rule {
 /// divides; where it does not serve, the cell is undividable, and these are walked once more.
 [[nodiscard]] std::span<const Rule> polygon_rules();
 
-/// Of two imported meshes: whether one leaf has all facets, which are all across the axes. Then a
-/// grid of bits is faster than crossings.
+/// Of two imported meshes that are not apart: whether one leaf has all facets, which are all across
+/// the axes. Then a grid of bits is faster than crossings.
 [[nodiscard]] bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options);
 
 /// The state of a formula's value in some form. `solids`: as below.

@@ -124,18 +124,26 @@ bool do_stand(std::span<const Box> boxes) {
     return are_enough(found, standing_part);
 }
 
+bool are_apart(std::span<const Box> boxes) {
+    std::vector<std::uint32_t> all(boxes.size());
+    std::iota(all.begin(), all.end(), 0U);
+    bool out = true;
+    for_each_meeting(boxes, all, [&](std::uint32_t, std::uint32_t) { out = false; });
+    return out;
+}
+
 // Whether that holds for enough of those that meet, or none do.
 bool may_touch_or_are_apart(std::span<const Box> boxes) {
     std::vector<std::uint32_t> all(boxes.size());
     std::iota(all.begin(), all.end(), 0U);
     std::vector<std::uint8_t> found(boxes.size(), 0);
-    bool are_apart = true;
+    bool none_meet = true;
     for_each_meeting(boxes, all, [&](std::uint32_t i, std::uint32_t j) {
-        are_apart = false;
+        none_meet = false;
         if ((found[i] == 0 || found[j] == 0) && may_touch(boxes[i], boxes[j]))
             found[i] = found[j] = 1;
     });
-    return are_apart || are_enough(found, touching_part);
+    return none_meet || are_enough(found, touching_part);
 }
 
 bool meets_many(std::span<const Box> boxes) {

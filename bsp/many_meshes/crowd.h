@@ -25,6 +25,9 @@ enum class Crowd : std::uint8_t {
 /// O(n log n)
 [[nodiscard]] bool do_stand(std::span<const Box> boxes);
 
+/// Whether no two meet; boxes that touch meet. As for_each_meeting()
+[[nodiscard]] bool are_apart(std::span<const Box> boxes);
+
 /// Whether boxes that meet others mostly begin or end at a coordinate at which the other one does,
 /// or lie about one, or none meet. O(n^2) where all meet
 [[nodiscard]] bool may_touch_or_are_apart(std::span<const Box> boxes);

@@ -331,6 +331,8 @@ bool do_fill_one_place(const SolidStates& solids) {
 
 bool do_stand_on_each_other(const SolidStates& solids) { return do_stand(boxes_of(solids)); }
 
+bool do_lie_apart(const SolidStates& solids) { return are_apart(boxes_of(solids)); }
+
 bool are_nested(const SolidStates& solids) {
     std::vector<Box> boxes = boxes_of(solids);
     std::ranges::sort(boxes, {}, &size_of);

@@ -29,6 +29,8 @@ namespace trisect::detail {
 /// Whether boxes of at least half of all end where other ones begin, with a part of a plane in
 /// common. \pre may_be_many_meshes() of some formula. O(n log n)
 [[nodiscard]] bool do_stand_on_each_other(const SolidStates& solids);
+/// Whether no two boxes meet. \pre as above
+[[nodiscard]] bool do_lie_apart(const SolidStates& solids);
 /// Whether each box but the largest lies within the next larger one. \pre as above. O(n log n)
 [[nodiscard]] bool are_nested(const SolidStates& solids);
 

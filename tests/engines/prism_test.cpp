@@ -116,7 +116,7 @@ Volume volume_of(const trisect::PolygonMesh& mesh) {
     return out;
 }
 
-const trisect::detail::FormulaRule by_outlines{&trisect::detail::are_large_prisms,
+const trisect::detail::FormulaRule by_outlines{&trisect::detail::may_be_prisms_of_one_axis,
                                                &trisect::detail::outline_prisms};
 
 // The same for outlines, as large results have them, before anything is cut.

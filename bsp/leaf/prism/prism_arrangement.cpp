@@ -86,7 +86,7 @@ bool PrismArrangement::find_crossings_and_chains(const LeafProblem& problem, Eva
 
 // Every side face is looked at in each of its layers, and every crossing turns over as many.
 bool PrismArrangement::has_few_layers() const {
-    constexpr std::size_t few = 16;
+    constexpr std::size_t few = 80;
     std::size_t looked_at = 0;
     std::size_t all = 0;
     for (LeafIndex i = 0; as_index(i) < facets_.side_faces().size(); ++i) {
