@@ -21,8 +21,8 @@ namespace {
 
 using detail::Translation;
 
-// The rules for formulas after that for two meshes.
-constexpr std::size_t rules_after_two_meshes = 1;
+// The rules for formulas after those for prisms and for two meshes.
+constexpr std::size_t rules_after_two_meshes = 2;
 
 // Whether the formulas name the same solids in the same order.
 bool have_same_slots(const Translation& a, const Translation& b) {
@@ -92,7 +92,19 @@ private:
                                            operands.settings()) ||
                    detail::are_one_grid(operands.states(), operands.settings());
         });
-        if (same.size() >= 2) evaluate_together(same, operands);
+        if (same.size() >= 2 && !outline_first(first, operands)) evaluate_together(same, operands);
+    }
+
+    // Where two meshes are prisms to outline: then so are those of the other formulas.
+    [[nodiscard]] bool outline_first(std::size_t first, detail::FormulaOperands& operands) {
+        detail::EvaluateStats made;
+        auto state = detail::evaluate_by(detail::rule_of_prisms(), translations_[first].formula,
+                                         operands.states(), operands.settings(), made);
+        if (!state) return false;
+        operands.count(made, &reports_[first]);
+        solids_[first] = operands.solid_of_value(std::move(state));
+        ++counters_.evaluations;
+        return true;
     }
 
     void evaluate_together(std::span<const std::size_t> same, detail::FormulaOperands& operands) {

@@ -23,6 +23,7 @@
 #include <trisect/bsp/many_meshes/many_meshes_without_tree.h>
 #include <trisect/bsp/many_meshes/parity/exclusive_or_without_tree.h>
 #include <trisect/bsp/two_meshes/few_facets.h>
+#include <trisect/bsp/two_meshes/two_meshes.h>
 #include <trisect/bsp/two_meshes/two_meshes_without_tree.h>
 #include <trisect/kernel/contract.h>
 
@@ -179,6 +180,22 @@ bool are_mostly_across_axes(const SolidStates& solids) {
 // Of so few facets leaves are faster, but not exact ones.
 constexpr std::size_t facets_of_tetrahedron = 4;
 
+std::vector<Box> boxes_of_meshes(const SolidStates& solids) {
+    std::vector<Box> out;
+    for (const auto& s : solids) out.push_back(s->root().node->polygons()[0].source->box());
+    return out;
+}
+
+// Whether two boxes have more than a face in common, and begin or end in one plane.
+bool are_flush(const Box& a, const Box& b) {
+    bool flush = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (a.lo[k] >= b.hi[k] || b.lo[k] >= a.hi[k]) return false;
+        flush = flush || a.lo[k] == b.lo[k] || a.hi[k] == b.hi[k];
+    }
+    return flush;
+}
+
 }  // namespace
 
 bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
@@ -193,6 +210,23 @@ bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
            });
 }
 
+// Of two meshes without common planes pairs are found as soon. Of large ones cells would cut walls.
+// Of few facets pieces cost more than outlines, but walls that touch are found late, and nothing is
+// outlined of what is across the axes or apart.
+bool are_prisms_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
+                              const EvaluateSettings& options) {
+    if (!may_be_prisms_of_one_axis(formula, solids, options)) return false;
+    const std::vector<Box> boxes = boxes_of_meshes(solids);
+    if (are_two_meshes(formula, solids, options, facets_of_tetrahedron))
+        return TwoMeshes(solids).are_of_a_size() && are_flush(boxes[0], boxes[1]) &&
+               !are_mostly_across_axes(solids);
+    std::uint64_t all = 0;
+    for (const auto& s : solids) all += s->root().node->size();
+    if (all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
+        return !may_be_many_meshes(formula, solids, options) || !are_apart(boxes);
+    return !are_mostly_across_axes(solids) && !do_stand(boxes) && !are_apart(boxes);
+}
+
 namespace {
 
 bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
@@ -202,23 +236,6 @@ bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
     return (are_two_meshes(formula, solids, options) ||
             (are_apart_or_touch(solids) && !are_mostly_across_axes(solids))) &&
            !are_one_grid(solids, options);
-}
-
-// Of large ones cells would cut walls. Of few facets pieces cost more than outlines, but walls that
-// touch are found late, and nothing is outlined of what is across the axes or apart.
-bool are_prisms_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
-                              const EvaluateSettings& options) {
-    if (!may_be_prisms_of_one_axis(formula, solids, options)) return false;
-    std::uint64_t all = 0;
-    std::vector<Box> boxes;
-    for (const auto& s : solids) {
-        const PolygonList& polygons = s->root().node->polygons();
-        all += polygons.size();
-        boxes.push_back(polygons[0].source->box());
-    }
-    if (all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
-        return !may_be_many_meshes(formula, solids, options) || !are_apart(boxes);
-    return !are_mostly_across_axes(solids) && !do_stand(boxes) && !are_apart(boxes);
 }
 
 // Which are one leaf, if they are of one axis.
@@ -267,6 +284,15 @@ constexpr std::size_t constant_rows = 2;
 
 constexpr std::array all_rules{
     Rule{
+        "outlines of prisms",
+        "meshes of prisms along one axis; of two that are compared as meshes, of a size, those "
+        "whose "
+        "boxes overlap and begin or end in one plane, and that are not all across the axes; others "
+        "that are larger together than a leaf of prisms, or not all across the axes nor most of "
+        "them on each other, and not apart; no limits",
+        "whole facets, outlines by name", &Stats::prism_leaves,
+        FormulaRule{&are_prisms_beyond_leaves, &outline_prisms}},
+    Rule{
         "two meshes",
         "∪, ∩, − or ⊕ of two imported meshes, 16 facets each or 64 and 4, or 4 where they are "
         "apart, or touch and not all across the axes, without an index, of a size, or of which the "
@@ -274,12 +300,6 @@ constexpr std::array all_rules{
         "are all across the axes, unless apart; no work limit",
         "uncrossed facets, crossings", &Stats::filtered_leaves,
         FormulaRule{&are_two_meshes_now, &evaluate_without_tree}},
-    Rule{
-        "outlines of prisms",
-        "meshes of prisms along one axis, larger together than a leaf of prisms, or not all across "
-        "the axes nor most of them on each other; not apart; no limits",
-        "whole facets, outlines by name", &Stats::prism_leaves,
-        FormulaRule{&are_prisms_beyond_leaves, &outline_prisms}},
     Rule{"half-spaces",
          "∩ or − of one imported mesh and half-spaces, or what complements make of it; parallel "
          "planes, none through a corner; no work limit",
@@ -361,6 +381,8 @@ LeafResult arrange_leaf(const LeafProblem& problem, LeafArrangers& arrangers) {
 std::span<const Rule> rules() { return all_rules; }
 
 std::span<const Rule> formula_rules() { return rules().first(formula_rows); }
+
+const FormulaRule& rule_of_prisms() { return std::get<FormulaRule>(rules().front().how); }
 
 std::span<const Rule> constant_rules() { return rules().subspan(formula_rows, constant_rows); }
 

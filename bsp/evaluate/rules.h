@@ -93,6 +93,8 @@ struct Rule {
 [[nodiscard]] std::span<const Rule> rules();
 /// Those for whole formulas; the others are for cells.
 [[nodiscard]] std::span<const Rule> formula_rules();
+/// The first one.
+[[nodiscard]] const FormulaRule& rule_of_prisms();
 /// Those of cells that are decided by the formula alone.
 [[nodiscard]] std::span<const Rule> constant_rules();
 /// Those of cells that depend on the polygons. The last one that is not for small cells alone

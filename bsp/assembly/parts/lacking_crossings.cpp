@@ -20,6 +20,7 @@
 #include <trisect/bsp/assembly/parts/crossing_faces.h>
 #include <trisect/bsp/assembly/parts/facet_boxes.h>
 #include <trisect/kernel/number/error_bounds.h>
+#include <trisect/kernel/number/filters.h>
 #include <trisect/kernel/support/as_index.h>
 #include <trisect/kernel/support/flat_map.h>
 #include <trisect/kernel/support/pool_allocator.h>
@@ -67,6 +68,23 @@ private:
     PoolVector<std::uint64_t> slots_;  // 0: none; else the side and 2 in the last bits
     std::size_t count_ = 0;
 };
+
+// Whether doubles tell the planes apart, by their normals or by where they cross an axis.
+bool differ(const Plane& a, const Plane& b) {
+    const auto signed_minor = [](double p, double q, double r, double s) {
+        return filter_cross(p, q, r, s).sign() != 0;
+    };
+    bool found = false;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        found = found ||
+                signed_minor(a.approx_normal(i), a.approx_normal(j), b.approx_normal(i),
+                             b.approx_normal(j)) ||
+                signed_minor(a.approx_normal(i), a.approx_offset(), b.approx_normal(i),
+                             b.approx_offset());
+    }
+    return found;
+}
 
 // Edges in special position, by segment; and facets that may have one of them inside.
 class LackingCrossings {
@@ -243,6 +261,7 @@ private:
         const PlaneId p = bench.plane_class(a);
         const PlaneId q = bench.plane_class(b);
         if (p == q) return true;
+        if (differ(bench.plane_at(a), bench.plane_at(b))) return false;
         const Key128 key{static_cast<std::uint64_t>(std::min(p, q)),
                          static_cast<std::uint64_t>(std::max(p, q))};
         if (const std::int32_t known = same_planes_.find(key); known >= 0) return known != 0;
