@@ -69,7 +69,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Whether doubles tell the planes apart, by their normals or by where they cross an axis.
+// Whether doubles show that the planes differ, by their normals or by where they cross an axis.
 bool differ(const Plane& a, const Plane& b) {
     const auto signed_minor = [](double p, double q, double r, double s) {
         return filter_cross(p, q, r, s).sign() != 0;
