@@ -118,17 +118,31 @@ TEST(ExclusiveOrOfMany, TakesWhatTwoOfThemTake) {
     EXPECT_TRUE(trisect::evaluate(at_once ^ by_twos).is_empty());
 }
 
+trisect::Solid ball_at(double x, double y, double z) {
+    trisect::PolygonMesh mesh = trisect::make_icosphere(1000, 2);
+    for (auto& p : mesh.points) p = {std::round(p[0]) + x, p[1] + y, p[2] + z};
+    return trisect::Solid::from_mesh(mesh);
+}
+
 // Faces of three meshes through one line may cross there, without an edge in it.
 TEST(ExclusiveOrOfMany, LeavesWhatTouchesToCells) {
-    std::vector<trisect::Solid> solids;
-    for (int i = 0; i < 3; ++i) {
-        trisect::PolygonMesh mesh = trisect::make_icosphere(1000, 2);
-        for (auto& p : mesh.points) p = {std::round(p[0]) + 2000 * i, p[1], p[2]};
-        solids.push_back(trisect::Solid::from_mesh(mesh));
-    }
-    const trisect::Solid all = trisect::evaluate(solids[0] ^ solids[1] ^ solids[2]);
+    const trisect::Solid a = ball_at(0, 0, 0);
+    const trisect::Solid b = ball_at(2000, 0, 0);
+    const trisect::Solid c = ball_at(4000, 0, 0);
+    const trisect::Solid d = ball_at(1234.5, 678.25, 432.125);
+    const trisect::Solid all = trisect::evaluate(a ^ b ^ c ^ d);
     EXPECT_EQ(trisect::detail::state_of(all)->lazy_tree(), nullptr);
-    EXPECT_NEAR(trisect::volume(all) / trisect::volume(solids[1]), 3, 1e-12);
+    const trisect::Solid row = trisect::evaluate(trisect::evaluate(a ^ b) ^ c);
+    EXPECT_NEAR(trisect::volume(all) / trisect::volume(trisect::evaluate(row ^ d)), 1, 1e-12);
+}
+
+// Their boxes have no insides in common.
+TEST(ExclusiveOrOfMany, TakesWhatTouchesSideBySideForAUnion) {
+    const trisect::Solid b = ball_at(2000, 0, 0);
+    const trisect::Solid all = trisect::evaluate(ball_at(0, 0, 0) ^ b ^ ball_at(4000, 0, 0));
+    EXPECT_NE(trisect::detail::state_of(all)->lazy_tree(), nullptr);
+    EXPECT_FALSE(trisect::detail::state_of(all)->lazy_tree()->is_cut());
+    EXPECT_NEAR(trisect::volume(all) / trisect::volume(b), 3, 1e-12);
 }
 
 }  // namespace

@@ -64,12 +64,15 @@ void CoplanarPairs::find_pairs(std::uint32_t threads) {
         for (std::size_t t = begin; t < end; ++t)
             fill(tables[t], std::span(lists).subspan(count * t, count));
     });
+    const auto comes_first = [](const PairOfEdges& a, const PairOfEdges& b) {
+        return a.second < b.second;
+    };
     for (const Table& t : tables) {
         const auto before = static_cast<std::ptrdiff_t>(pairs_.size());
         pairs_.insert(pairs_.end(), t.pairs.begin(), t.pairs.end());
         crowded_.insert(crowded_.end(), t.crowded.begin(), t.crowded.end());
         // Each table has them in this order.
-        std::ranges::inplace_merge(pairs_, pairs_.begin() + before, {}, &PairOfEdges::second);
+        std::inplace_merge(pairs_.begin(), pairs_.begin() + before, pairs_.end(), comes_first);
     }
     note_gone();
 }
