@@ -210,23 +210,6 @@ bool are_one_grid(const SolidStates& solids, const EvaluateSettings& options) {
            });
 }
 
-// Of two meshes without common planes pairs are found as soon. Of large ones cells would cut walls.
-// Of few facets pieces cost more than outlines, but walls that touch are found late, and nothing is
-// outlined of what is across the axes or apart.
-bool are_prisms_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
-                              const EvaluateSettings& options) {
-    if (!may_be_prisms_of_one_axis(formula, solids, options)) return false;
-    const std::vector<Box> boxes = boxes_of_meshes(solids);
-    if (are_two_meshes(formula, solids, options, facets_of_tetrahedron))
-        return TwoMeshes(solids).are_of_a_size() && are_flush(boxes[0], boxes[1]) &&
-               !are_mostly_across_axes(solids);
-    std::uint64_t all = 0;
-    for (const auto& s : solids) all += s->root().node->size();
-    if (all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
-        return !may_be_many_meshes(formula, solids, options) || !are_apart(boxes);
-    return !are_mostly_across_axes(solids) && !do_stand(boxes) && !are_apart(boxes);
-}
-
 namespace {
 
 bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
@@ -236,6 +219,24 @@ bool are_two_meshes_now(const Residual::Ref& formula, const SolidStates& solids,
     return (are_two_meshes(formula, solids, options) ||
             (are_apart_or_touch(solids) && !are_mostly_across_axes(solids))) &&
            !are_one_grid(solids, options);
+}
+
+// Of two meshes without common planes pairs are found as soon. Of large ones cells would cut walls.
+// Of few facets pieces cost more than outlines, but walls that touch are found late, and nothing is
+// outlined of what is across the axes or apart.
+bool are_prisms_beyond_leaves(const Residual::Ref& formula, const SolidStates& solids,
+                              const EvaluateSettings& options) {
+    if (!may_be_prisms_of_one_axis(formula, solids, options)) return false;
+    const std::vector<Box> boxes = boxes_of_meshes(solids);
+    if (are_two_meshes_now(formula, solids, options))
+        return TwoMeshes(solids).are_of_a_size() && are_flush(boxes[0], boxes[1]) &&
+               !are_mostly_across_axes(solids);
+    std::uint64_t all = 0;
+    for (const auto& s : solids) all += s->root().node->size();
+    if (all > std::uint64_t{prism_leaf_factor} * options.leaf_polygons)
+        return !are_apart(boxes) || (!may_be_many_meshes(formula, solids, options) &&
+                                     !is_exclusive_or_of_many(formula, solids, options));
+    return !are_mostly_across_axes(solids) && !do_stand(boxes) && !are_apart(boxes);
 }
 
 // Which are one leaf, if they are of one axis.

@@ -166,6 +166,29 @@ TEST(ChosenRules, CubesApartAreKeptAsTheyAre) {
     }
 }
 
+// Of solids that touch, with caps and edges in common: of two such and more cells were arranged
+// exactly. Where one is a complement, cells still are.
+TEST(ChosenRules, ExclusiveOrsOfSolidsBesideEachOtherAreUnions) {
+    std::vector<Expression> prisms;
+    for (std::int64_t i = 0; i < 8; ++i)
+        prisms.emplace_back(
+            round_prism(40, 1000, {2000 * (i % 2), 2000 * (i / 2 % 2), 500 * (i / 4)}, 500));
+    Expression formula = prisms[0];
+    for (std::size_t i = 1; i < prisms.size(); ++i) formula = formula ^ prisms[i];
+    EvaluateStats stats;
+    const Solid result = evaluate(formula, {}, &stats);
+    EXPECT_GT(stats.filtered_leaves, 0U);
+    EXPECT_EQ(stats.exact_leaves, 0U);
+    EXPECT_EQ(exact_volume(result.to_brep()),
+              exact_volume(evaluate(Expression::any_of(prisms)).to_brep()));
+    expect_as_by_cells(result, formula);
+    expect_as_by_cells(evaluate(formula ^ ~prisms[3] ^ prisms[3]),
+                       formula ^ ~prisms[3] ^ prisms[3]);
+    const Expression turned = ~prisms[0] ^ prisms[1] ^ prisms[2] ^ prisms[5];
+    const Solid outside = evaluate(turned);
+    EXPECT_TRUE(evaluate(outside ^ evaluated_by_cells(turned)).is_empty());
+}
+
 // Nor are those of prisms.
 TEST(ChosenRules, PrismsApartAreKeptAsTheyAre) {
     std::vector<Expression> prisms;

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include <trisect/brep/primitives/cylinder.h>
+#include <trisect/brep/primitives/cone.h>
 #include <trisect/brep/primitives/sphere.h>
 #include <trisect/brep/transform.h>
 #include <trisect/bsp/evaluate/on_common_lattice.h>
@@ -65,10 +65,10 @@ TEST_F(TwoBalls, AreNotDividedWhereTheyAreFarFromEachOther) {
     EXPECT_LT(stats.memory, by_cells.memory);
 }
 
-// Two cylinders of which the second one is moved across its axis. Walls of one end in the planes of
-// the other one's caps, most of them beside the cap's facet whose box they meet.
+// Two cones of which the second one is moved across its axis. Walls of one end in the plane of the
+// other one's cap, many of them beside the facet of it whose box they meet.
 TEST(Caps, WallsThatEndBesideThemAreNoDoubtfulPairs) {
-    const trisect::PolygonMesh mesh = trisect::make_cylinder(1, 1, 400);
+    const trisect::PolygonMesh mesh = trisect::make_cone(1, 0.25, 1, 400);
     const Solid a = Solid::from_mesh(mesh);
     const Solid b = Solid::from_mesh(
         trisect::transformed(mesh, trisect::AffineMap::translation({0.4375, 0.28125, 0})));
