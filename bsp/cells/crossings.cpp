@@ -63,6 +63,7 @@ private:
 };
 
 bool has_repeated_source(std::span<const Crossings::Operand> operands) {
+    if (operands.size() == 2) return operands[0].serial == operands[1].serial;
     std::vector<std::uint64_t> serials;
     serials.reserve(operands.size());
     for (const Crossings::Operand& o : operands) serials.push_back(o.serial);
@@ -77,6 +78,7 @@ std::optional<Crossings> crossing_operands(
     if (states.size() < 2) return std::nullopt;
     std::uint64_t facets = 0;
     Crossings out;
+    out.operands.reserve(states.size());
     for (const auto& state : states) {
         const CellRef& root = state->root();
         const PolygonList* polygons = root.node->is_leaf() ? &root.node->polygons() : nullptr;

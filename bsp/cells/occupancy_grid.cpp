@@ -3,14 +3,17 @@
 #include <trisect/bsp/cells/occupancy_grid.h>
 
 #include <algorithm>
+#include <bit>
 
 namespace trisect::detail {
 
 // Swaps quarters, then quarters of quarters (Warren, "Hacker's Delight", section 7-3).
-void transpose(UnitRows& rows) {
-    std::uint64_t mask = 0x00000000ffffffffU;
-    for (std::size_t n = 32; n != 0; n /= 2, mask ^= mask << n) {
-        for (std::size_t i = 0; i < rows.size(); i = (i + n + 1) & ~n) {
+void transpose(UnitRows& rows, std::size_t size) {
+    const std::size_t whole = std::bit_ceil(size);
+    std::size_t n = whole / 2;
+    std::uint64_t mask = ~std::uint64_t{0} / ((std::uint64_t{1} << n) + 1);
+    for (; n != 0; n /= 2, mask ^= mask << n) {
+        for (std::size_t i = 0; i < whole; i = (i + n + 1) & ~n) {
             const std::uint64_t t = (rows[i] >> n ^ rows[i + n]) & mask;
             rows[i] ^= t << n;
             rows[i + n] ^= t;
@@ -30,7 +33,7 @@ std::vector<OccupancyGrid::Layer> OccupancyGrid::layers(std::size_t axis) const 
         } else {
             Layer across{};
             std::copy(rows, rows + row_count, across.begin());
-            transpose(across);
+            transpose(across, std::max(row_count, out.size()));
             for (std::size_t x = 0; x < out.size(); ++x) out[x][z] = across[x];
         }
     }

@@ -40,7 +40,8 @@ struct OccupancyGrid {
     [[nodiscard]] std::size_t bytes() const;
 };
 
-/// Makes bit i of row j bit j of row i.
-void transpose(UnitRows& rows);
+/// Makes bit i of row j bit j of row i. All rows and bits from `size` on are zero.
+/// \pre 0 < size <= axis_units_limit
+void transpose(UnitRows& rows, std::size_t size);
 
 }  // namespace trisect::detail

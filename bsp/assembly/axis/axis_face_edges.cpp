@@ -138,6 +138,8 @@ void AxisFaceOutlines<Number>::rank_coordinates() {
         for (std::size_t k = 0; k < 3; ++k)
             coordinates_[k].push_back(Numbers::place(coordinate(p, k)));
     };
+    for (auto& all : coordinates_)
+        all.reserve(places_.size() + corners_.size() + face_planes_.size());
     for (const LatticePoint& p : places_) add(p);
     for (const CornerName& c : corners_) add(c.source->corner(c.facet, c.corner));
     for (const FacePlane& s : face_planes_)
@@ -206,8 +208,17 @@ auto AxisFaceOutlines<Number>::line_of(const FacePlane& face_plane, const Interv
 
 template <class Number>
 void AxisFaceOutlines<Number>::make_stops() {
-    for (FacePlane& s : face_planes_)
-        if (!s.is_general) s.stops.resize(s.outline.intervals().size());
+    std::size_t intervals = 0;
+    std::size_t runs = 0;
+    for (FacePlane& s : face_planes_) {
+        if (s.is_general) continue;
+        s.stops.resize(s.outline.intervals().size());
+        intervals += s.outline.intervals().size();
+        runs += s.outline.runs().size();
+    }
+    // Mostly each is in two planes, and so are its ends.
+    stops_.reserve(intervals);
+    all_lines_.reserve(runs / 2);
     for (FacePlane& s : face_planes_) {
         if (s.is_general) continue;
         for (const typename Outline::Run& run : s.outline.runs())

@@ -305,18 +305,21 @@ template <class Number>
 void AxisFaceOutlines<Number>::read_units(const Leaf& leaf, const UnitsOf& some) {
     const OccupancyGrid& occupancy = *leaf.occupancy;
     std::array<std::vector<Number>, 3> planes;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
+        planes[k].reserve(occupancy.planes[k].size());
         for (const Int128 at : occupancy.planes[k]) planes[k].push_back(Numbers::from_wide(at));
+    }
     const std::vector<OccupancyGrid::Layer> layers = occupancy.layers(some.axis);
     const UnitFrame frame = UnitFrame::of(some.axis);
     typename Outline::Units units;
     units.row_axis = static_cast<std::uint8_t>((frame.row_axis + 2 - some.axis) % 3);
     units.row_planes = planes[frame.row_axis];
     units.bit_planes = planes[frame.bit_axis];
+    const std::size_t rows = units.row_planes.size() - 1;
     for (std::size_t p = 1; p < layers.size(); ++p) {
         const OccupancyGrid::Layer& low = layers[p - 1];
         const OccupancyGrid::Layer& high = layers[p];
-        if (low == high) continue;
+        if (std::equal(low.begin(), low.begin() + rows, high.begin())) continue;
         const std::int32_t number = face_plane_ids_.find(key_of(some.axis, planes[some.axis][p]));
         TRISECT_EXPECTS(number >= 0, "no facet bounds a set where it ends");
         FacePlane& face_plane = face_planes_[as_index(number)];
@@ -324,7 +327,7 @@ void AxisFaceOutlines<Number>::read_units(const Leaf& leaf, const UnitsOf& some)
             continue;
         for (const bool inside_low : {true, false}) {
             std::uint64_t any = 0;
-            for (std::size_t r = 0; r < units.rows.size(); ++r)
+            for (std::size_t r = 0; r < rows; ++r)
                 any |= units.rows[r] = inside_low ? low[r] & ~high[r] : high[r] & ~low[r];
             if (any != 0) face_plane.outline.add(units, inside_low != leaf.complemented);
         }

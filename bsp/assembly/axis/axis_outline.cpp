@@ -65,6 +65,10 @@ std::optional<Int128> share_of(Int128 way, Int128 by, Int128 step) {
     return way / common * (by / rest);
 }
 
+// More than a rectangle has on one of its axes. Few outlines have fewer, and growing one by one
+// takes longer than all else of them.
+constexpr std::size_t few_changes = 8;
+
 }  // namespace
 
 template <class Number>
@@ -131,9 +135,12 @@ void AxisOutline<Number>::add(std::span<const AxisSide<Number>> sides, bool turn
 template <class Number>
 void AxisOutline<Number>::add(const Units& units, bool faces_up) {
     add_lines(units, faces_up);
-    Units turned = units;
-    transpose(turned.rows);
-    std::swap(turned.row_planes, turned.bit_planes);
+    Units turned;
+    const std::size_t rows = units.row_planes.size() - 1;
+    std::copy_n(units.rows.begin(), rows, turned.rows.begin());
+    transpose(turned.rows, std::max(rows, units.bit_planes.size() - 1));
+    turned.row_planes = units.bit_planes;
+    turned.bit_planes = units.row_planes;
     turned.row_axis = 1 - units.row_axis;
     add_lines(turned, faces_up);
 }
@@ -142,6 +149,7 @@ void AxisOutline<Number>::add(const Units& units, bool faces_up) {
 template <class Number>
 void AxisOutline<Number>::add_lines(const Units& units, bool faces_up) {
     auto& changes = changes_[kind_of(faces_up, units.row_axis)];
+    if (changes.capacity() == 0) changes.reserve(few_changes);
     const bool low_runs_up = units.row_axis == 1;
     const std::size_t rows = units.row_planes.size() - 1;
     std::uint64_t before = 0;
@@ -215,6 +223,10 @@ template <class Number>
 bool AxisOutline<Number>::finish() {
     intervals_.clear();
     runs_.clear();
+    std::size_t changes = 0;
+    for (const auto& of_kind : changes_) changes += of_kind.size();
+    intervals_.reserve(std::min(changes, few_changes));
+    runs_.reserve(std::min(changes, few_changes));
     for (std::size_t kind = 0; kind < changes_.size(); ++kind) {
         first_run_[kind] = runs_.size();
         if (!add_intervals(kind)) return false;

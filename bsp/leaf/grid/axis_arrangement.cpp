@@ -245,7 +245,7 @@ void AxisArrangement<Number>::evaluate(const Residual& formula, Units& out) {
 template <class Number>
 auto AxisArrangement<Number>::sides(const std::uint64_t* units, std::size_t axis, std::size_t plane,
                                     std::size_t first_row, std::size_t end_row) const -> Sides {
-    Sides s;
+    Sides s;  // NOLINT(*-member-init): of other rows nobody reads them
     const std::size_t n = rows();
     for (std::size_t r = first_row; r < end_row; ++r) {
         if (axis == 2) {
@@ -255,6 +255,7 @@ auto AxisArrangement<Number>::sides(const std::uint64_t* units, std::size_t axis
             s.low[r] = units[r * n + plane - 1];
             s.high[r] = units[r * n + plane];
         } else {
+            s.low[r] = s.high[r] = 0;
             for (std::size_t b = 0; b < n; ++b) {
                 const std::uint64_t pair = units[r * n + b] >> (plane - 1);
                 s.low[r] |= (pair & 1) << b;
@@ -339,7 +340,6 @@ void AxisArrangement<Number>::start_plane(Polygons plane_polygons) {
         sides(units_of(plane_polygons[0].operand), axis_, plane_, first_row_, end_row_);
     const Sides whole = sides(result_.data(), axis_, plane_, first_row_, end_row_);
     UnitRows& claimed = claimed_[axis_][plane_];
-    own_ = up_ = down_ = bounds_ = {};
     for (std::size_t r = first_row_; r < end_row_; ++r) {
         own_[r] = own.low[r] ^ own.high[r];
         bounds_[r] = whole.low[r] ^ whole.high[r];
@@ -421,9 +421,10 @@ template <class Number>
 void AxisArrangement<Number>::emit_uncut(const Polygon& p, const UnitRows& units) {
     Facings without = both_facings;
     for (const bool inside_low : {true, false}) {
-        UnitRows kept = inside_low ? up_ : down_;
+        const UnitRows& all_kept = inside_low ? up_ : down_;
+        UnitRows kept{};
         std::uint64_t any = 0;
-        for (std::size_t r = first_row_; r < end_row_; ++r) any |= kept[r] &= units[r];
+        for (std::size_t r = first_row_; r < end_row_; ++r) any |= kept[r] = all_kept[r] & units[r];
         if (any == 0) continue;
         without[inside_low ? 1 : 0] = false;
         any_cut_ = true;

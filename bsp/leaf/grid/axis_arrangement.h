@@ -35,8 +35,8 @@ private:
     using Polygons = std::span<const Polygon>;
     // The units on both sides of a plane that are inside some set, in the frame of the plane.
     struct Sides {
-        UnitRows low{};
-        UnitRows high{};
+        UnitRows low;
+        UnitRows high;
     };
     struct Rectangle {
         std::size_t row, end_row, bit, end_bit;
@@ -106,6 +106,7 @@ private:
     std::size_t plane_ = 0;
     std::size_t first_row_ = 0;
     std::size_t end_row_ = 0;
+    // Of the plane at hand, from first_row_ to end_row_.
     UnitRows own_{};
     UnitRows up_{};         // kept, with the inside on the lower side
     UnitRows down_{};       // kept, with the inside on the higher side
