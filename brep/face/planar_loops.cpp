@@ -94,8 +94,27 @@ int PlaneProjection::lattice_orientation(std::uint32_t a, std::uint32_t b, std::
     return detail::exact_turn(flat(c), flat(a), flat(b));
 }
 
+namespace {
+
+// In limbs: of xyz, of w, of minors and of the determinant.
+template <int Xyz, int W, int Minor, int Determinant>
+int sign_of_rows(const std::array<const HomogeneousPoint*, 3>& rows, std::size_t i, std::size_t j) {
+    const auto minor = [&](const HomogeneousPoint& s, const HomogeneousPoint& t) {
+        return multiply<Minor>(WideInt<Xyz>(s.xyz[i]), WideInt<Xyz>(t.xyz[j])) -
+               multiply<Minor>(WideInt<Xyz>(s.xyz[j]), WideInt<Xyz>(t.xyz[i]));
+    };
+    const auto term = [&](std::size_t k) {
+        return multiply<Determinant>(minor(*rows[k], *rows[(k + 1) % 3]),
+                                     WideInt<W>(rows[(k + 2) % 3]->w));
+    };
+    return (term(0) + term(1) + term(2)).sign();
+}
+
+}  // namespace
+
 // The sign of the 3×3 determinant of homogeneous rows (u, v, w) with w > 0:
-// 2^384 · 2^384 · 2^330 · 6 < 2^1101, hence 18 limbs.
+// 2^384 · 2^384 · 2^330 · 6 < 2^1101, hence 18 limbs; of the first tier, whose numbers have 230 and
+// 174 bits, 2^230 · 2^230 · 2^174 · 6 < 2^637, hence 11.
 int PlaneProjection::exact_orientation(const HomogeneousPoint& a, const HomogeneousPoint& b,
                                        const HomogeneousPoint& c, Axes axes) {
     const auto i = static_cast<std::size_t>(axes.u);
@@ -107,14 +126,9 @@ int PlaneProjection::exact_orientation(const HomogeneousPoint& a, const Homogene
         };
         return (minor(a, b) * c.w + minor(b, c) * a.w + minor(c, a) * b.w).sign();
     }
-    const auto minor = [&](const HomogeneousPoint& s, const HomogeneousPoint& t) {
-        return multiply<13>(WideInt<7>(s.xyz[i]), WideInt<7>(t.xyz[j])) -
-               multiply<13>(WideInt<7>(s.xyz[j]), WideInt<7>(t.xyz[i]));
-    };
-    const auto times = [](const WideInt<13>& m, const HomogeneousPoint& p) {
-        return multiply<18>(m, WideInt<6>(p.w));
-    };
-    return (times(minor(a, b), c) + times(minor(b, c), a) + times(minor(c, a), b)).sign();
+    if (a.tier == 0 && b.tier == 0 && c.tier == 0)
+        return sign_of_rows<4, 3, 8, 11>({&a, &b, &c}, i, j);
+    return sign_of_rows<7, 6, 13, 18>({&a, &b, &c}, i, j);
 }
 
 PlanarLoops::PlanarLoops(const PlaneProjection& projection, std::span<const IndexLoop> loops)

@@ -119,26 +119,27 @@ bool is_mesh(const Solid& solid) {
     return prism != nullptr && prism->operand->resolved().has_corners_only();
 }
 
+bool is_made_of_prisms(const Solid& solid) {
+    const auto* const prism = std::get_if<FlatPrism>(&state_of(solid)->form);
+    return prism != nullptr && prism->made_of != nullptr;
+}
+
 // Slots get new numbers; the same solid has one.
 class PrismWriter {
 public:
     [[nodiscard]] std::optional<Translation> over_prisms(const Translation& t) {
-        bool is_other = false;
         std::vector<Residual::Ref> terms;
         for (const Solid& s : t.slots) {
-            const auto* const prism = std::get_if<FlatPrism>(&state_of(s)->form);
-            const FlatPrisms* const made_of = prism == nullptr ? nullptr : prism->made_of.get();
-            if (made_of == nullptr) {
+            if (!is_made_of_prisms(s)) {
                 terms.push_back(slot_of(s));
                 continue;
             }
-            if (!std::ranges::all_of(made_of->slots, &is_mesh)) return std::nullopt;
-            is_other = true;
+            const FlatPrisms& made_of = *std::get<FlatPrism>(state_of(s)->form).made_of;
+            if (!std::ranges::all_of(made_of.slots, &is_mesh)) return std::nullopt;
             std::vector<Residual::Ref> slots;
-            for (const Solid& p : made_of->slots) slots.push_back(slot_of(p));
-            terms.push_back(with_terms(*made_of->formula, slots));
+            for (const Solid& p : made_of.slots) slots.push_back(slot_of(p));
+            terms.push_back(with_terms(*made_of.formula, slots));
         }
-        if (!is_other) return std::nullopt;
         out_.formula = with_terms(*t.formula, terms);
         return std::move(out_);
     }
@@ -172,7 +173,9 @@ private:
 
 // A large formula may share parts, and would be written out as a tree.
 std::optional<Translation> over_prisms(const Translation& translation) {
-    if (translation.formula->operations == Residual::many_operations) return std::nullopt;
+    if (translation.formula->operations == Residual::many_operations ||
+        std::ranges::none_of(translation.slots, &is_made_of_prisms))
+        return std::nullopt;
     return PrismWriter().over_prisms(translation);
 }
 

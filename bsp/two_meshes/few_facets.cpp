@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <trisect/bsp/two_meshes/two_meshes.h>
 #include <trisect/kernel/number/vector3.h>
@@ -43,11 +44,23 @@ private:
     Vector3 a_{}, normal_{}, lo_{}, hi_{};
 };
 
-bool has_corner_on(const LatticeMesh& facets, const LatticeMesh& corners) {
+// Corners beside the box of both are on no facet of the other mesh; a box is one of positions, from
+// which coordinates are less than a unit away.
+bool has_corner_on(const LatticeMesh& facets, const LatticeMesh& corners, const Box& common) {
+    std::vector<Vector3> near;
+    for (const LatticePoint& corner : corners.points) {
+        const Vector3 p = corner.doubles();
+        bool is_within = true;
+        for (std::size_t k = 0; k < 3; ++k)
+            is_within = is_within && p[k] >= static_cast<double>(common.lo[k] - 1) &&
+                        p[k] <= static_cast<double>(common.hi[k] + 1);
+        if (is_within) near.push_back(p);
+    }
+    if (near.empty()) return false;
     for (std::size_t f = 0; f < facets.triangles.size(); ++f) {
         const NearFacet facet(facets, f);
-        for (const LatticePoint& p : corners.points)
-            if (facet.may_contain(p.doubles())) return true;
+        for (const Vector3& p : near)
+            if (facet.may_contain(p)) return true;
     }
     return false;
 }
@@ -56,8 +69,8 @@ bool has_corner_on(const LatticeMesh& facets, const LatticeMesh& corners) {
 
 bool are_apart_or_touch(const SolidStates& solids) {
     const TwoMeshes two(solids);
-    return two.common.is_empty() || has_corner_on(*two.meshes[0], *two.meshes[1]) ||
-           has_corner_on(*two.meshes[1], *two.meshes[0]);
+    return two.common.is_empty() || has_corner_on(*two.meshes[0], *two.meshes[1], two.common) ||
+           has_corner_on(*two.meshes[1], *two.meshes[0], two.common);
 }
 
 }  // namespace trisect::detail

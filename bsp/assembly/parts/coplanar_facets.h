@@ -23,11 +23,20 @@ using FacetPoints = std::array<Vector3, 3>;
             source.corner(facet, 2).doubles()};
 }
 
+/// Whether a facet and a point lie in one plane across an axis, as those of caps mostly do.
+[[nodiscard]] inline bool are_across_one_axis(const FacetPoints& facet, const Vector3& point) {
+    for (std::size_t k = 0; k < 3; ++k)
+        if (facet[0][k] == point[k] && facet[1][k] == point[k] && facet[2][k] == point[k])
+            return true;
+    return false;
+}
+
 /// The side of a facet's plane on which a point is; nothing where digits are too many for that.
 [[nodiscard]] inline std::optional<int> side_of_facet(const FacetPoints& facet,
                                                       const Vector3& point) {
     for (const Vector3& corner : facet)
         if (corner == point) return 0;
+    if (are_across_one_axis(facet, point)) return 0;
     if (const int side = filtered_orientation(facet[0], facet[1], facet[2], point); side != 0)
         return side;
     return exact_orientation_of_fractions(facet[0], facet[1], facet[2], point);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -69,7 +68,7 @@ private:
         constexpr double most = 0x1p50;
         const auto number = [&](std::size_t k) {
             return static_cast<std::int64_t>(
-                std::fmin(std::fmax((c[k] - origin_[k]) * per_unit_, -most), most));
+                std::min(most, std::max(-most, (c[k] - origin_[k]) * per_unit_)));
         };
         return {number((axis_ + 1) % 3), number((axis_ + 2) % 3)};
     }

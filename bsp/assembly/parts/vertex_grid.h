@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -64,12 +63,13 @@ private:
         std::uint32_t count = 0;  // 0: none
     };
     // Rounded steps keep the order of coordinates, so a box has all cubes of its points. What is
-    // beyond all vertices is in the cubes next to them.
+    // beyond all vertices is in the cubes next to them. Zero is the first of two, as no number is
+    // no larger.
     [[nodiscard]] Place place_of(const std::array<double, 3>& c) const {
         Place out{};
         for (std::size_t k = 0; k < 3; ++k)
-            out[k] = static_cast<std::int64_t>(std::fmin(
-                std::fmax((c[k] - origin_[k]) * per_unit_, 0), static_cast<double>(most_along)));
+            out[k] = static_cast<std::int64_t>(std::min(
+                static_cast<double>(most_along), std::max(0.0, (c[k] - origin_[k]) * per_unit_)));
         return out;
     }
     [[nodiscard]] static std::int64_t cube_count(const Place& first, const Place& last) {

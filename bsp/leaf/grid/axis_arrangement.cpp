@@ -460,9 +460,11 @@ std::uint8_t AxisArrangement<Number>::corners_in(const Polygon& p, const UnitRow
 template <class Number>
 std::unique_ptr<OccupancyGrid> AxisArrangement<Number>::make_occupancy() {
     auto out = std::make_unique<OccupancyGrid>();
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
+        out->planes[k].reserve(grid_.units(k).count() + 1);
         for (std::size_t i = 0; i <= grid_.units(k).count(); ++i)
             out->planes[k].push_back(Numbers::to_wide(grid_.units(k).plane(i).at));
+    }
     out->units = result_;
     out->parts = parts_;
     out->facets = PolygonList(listed());

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -75,6 +76,39 @@ TEST(RoundedPolygon, TurnsBetweenPointsOfPlanesAgreeWithTheExactOnes) {
         if (s == 0) continue;
         EXPECT_EQ(s, exact_turn(points, axes)) << "round " << round;
     }
+}
+
+HomogeneousPoint in_second_tier(HomogeneousPoint p) {
+    p.tier = std::max(p.tier, 1);
+    return p;
+}
+
+// The narrow determinant, also of points on one line and of corners of the lattice.
+TEST(RoundedPolygon, ExactTurnsDoNotDependOnTheTier) {
+    Random random;
+    int narrow = 0;
+    int straight = 0;
+    for (int round = 0; round < 1000; ++round) {
+        const std::int64_t size = std::int64_t{1} << (round % 2 == 0 ? 4 : 26);
+        const Plane support = random.plane(size);
+        const Plane common = random.plane(size);
+        std::vector<HomogeneousPoint> points;
+        while (points.size() < 3) {
+            const Plane p = round % 3 == 0 ? common : random.plane(size);
+            if (const auto at = intersect(support, p, random.plane(size))) points.push_back(*at);
+        }
+        if (round % 5 == 0) points[0] = homogeneous(random.point(size));
+        const auto axes = PlaneProjection::axes_of(support, round % 7 == 0);
+        const int turn = PlaneProjection::exact_orientation(points[0], points[1], points[2], axes);
+        narrow += std::ranges::all_of(points, [](const auto& p) { return p.tier == 0; }) ? 1 : 0;
+        straight += turn == 0 ? 1 : 0;
+        EXPECT_EQ(turn, PlaneProjection::exact_orientation(in_second_tier(points[0]),
+                                                           in_second_tier(points[1]),
+                                                           in_second_tier(points[2]), axes))
+            << "round " << round;
+    }
+    EXPECT_GT(narrow, 400);
+    EXPECT_GT(straight, 200);
 }
 
 // Two cuts by the halves of a quadrangle that is out of its plane by one unit of the lattice.
