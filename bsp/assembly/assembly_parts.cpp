@@ -97,7 +97,10 @@ private:
     void mark_outlined(const UndividedMeshes& meshes);
     void add_outlined_edges(const UndividedMeshes& meshes);
     void number_facets();
-    void reserve_names() { out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size()); }
+    void reserve_names() {
+        if (out_.facets.empty()) return;  // all pass through
+        out_.bench.reserve(4 * out_.facets.size(), 3 * out_.facets.size());
+    }
     // In special position planes and corners are not found by name (traced_facets.h).
     void reserve_names(const Crossings& crossings) {
         if (crossings.special.empty()) return reserve_names();
