@@ -245,7 +245,7 @@ void AxisArrangement<Number>::evaluate(const Residual& formula, Units& out) {
 template <class Number>
 auto AxisArrangement<Number>::sides(const std::uint64_t* units, std::size_t axis, std::size_t plane,
                                     std::size_t first_row, std::size_t end_row) const -> Sides {
-    Sides s;  // NOLINT(*-member-init): of other rows nobody reads them
+    Sides s;  // NOLINT(*-member-init): other rows are not read
     const std::size_t n = rows();
     for (std::size_t r = first_row; r < end_row; ++r) {
         if (axis == 2) {
