@@ -102,17 +102,18 @@ bool PrismFacets::list(const LeafProblem& problem, bool takes_walls, std::uint32
     return false;
 }
 
-// A look at the first facets of each operand, before all are listed.
+// A look at some facets all over each operand, before all are listed.
 bool PrismFacets::may_be_along(const LeafProblem& problem, std::size_t axis) {
     constexpr std::size_t few = 64;
     return std::ranges::all_of(problem.operands, [&](const LeafOperand& o) {
-        return std::ranges::all_of(o.polygons.first(std::min(few, o.polygons.size())),
-                                   [&](const PolygonRef& ref) {
-                                       if (ref.fragment != nullptr || ref.source->is_half_space())
-                                           return false;
-                                       const FlatFacet flat(ref, axis);
-                                       return flat.is_cap() || flat.is_upright();
-                                   });
+        const std::size_t count = std::min(few, o.polygons.size());
+        for (std::size_t i = 0; i < count; ++i) {
+            const PolygonRef& ref = o.polygons[i * o.polygons.size() / count];
+            if (ref.fragment != nullptr || ref.source->is_half_space()) return false;
+            const FlatFacet flat(ref, axis);
+            if (!flat.is_cap() && !flat.is_upright()) return false;
+        }
+        return true;
     });
 }
 
