@@ -66,7 +66,7 @@ constexpr std::size_t triangles_ahead = 12;
 TRISECT_WIDE_CLONES void list_unclear(const Row* rows, const std::uint8_t* counts,
                                       std::size_t vertices, std::vector<std::uint32_t>& unclear) {
     for (std::size_t v = 0; v < vertices; ++v) {
-        __builtin_prefetch(rows + v + ahead);
+        __builtin_prefetch(rows + std::min(v + ahead, vertices));
         Eight low;
         Eight high;
         std::memcpy(&low, rows[v].ends.data(), sizeof(low));
